@@ -27,7 +27,7 @@ from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.entry_formulas import EntryFormulas, Factor, coriolis_matrix, pairs, rates_of_pair
-from dynsolve.explain.parameter_meanings import angles_in
+from dynsolve.explain.parameter_meanings import angles_in, names_in
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, split_sign, times, total
 from dynsolve.notation.printing import decimal_text
@@ -37,7 +37,7 @@ from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import Turn, parallel_groups, turned_otherwise
-from dynsolve.robot.model import Convention, JointType, Robot
+from dynsolve.robot.model import Body, Convention, JointType, Robot
 
 LONG = 300
 """From this number of terms on a value is put together from parts."""
@@ -162,11 +162,14 @@ class Forms:
         return self.of(value)
 
     def _potential_energy(self, compact: Node) -> Node:
-        """Σ P_i as it is added up, unless collecting makes it much shorter."""
+        """Σ P_i as it is added up, its bodies collected where they share terms; or what is much shorter."""
         if self.robot.is_numeric or not self.robot.bodies:
             return compact
-        springs = ["Ps"] if self.robot.actions.stored else []
-        added = total([self(name) for name in (*(f"P{body.name}" for body in self.robot.bodies), *springs)])
+        names = [f"P{body.name}" for body in self.robot.bodies]
+        parts = [self.values[name] for name in names]
+        whole = sum(parts, start=self.robot.ring.zero)
+        forms = [self.of(whole)] if len(whole) < sum(map(len, parts)) else [self(name) for name in names]
+        added = total([*forms, *([self("Ps")] if self.robot.actions.stored else [])])
         return added if cost(added) <= 1.5 * cost(compact) else compact
 
     def _momentum_in_decimals(self, momentum: Expr) -> Node:
@@ -311,12 +314,21 @@ def _sandwich(left: tuple[Node, ...], tensor: tree.Matrix, right: tuple[Node, ..
 
 
 def leading_names(robot: Robot) -> list[str]:
-    """The masses and then the moments of inertia, in the order of the bodies, rotors last."""
-    masses = [name for body in robot.bodies for name in _linear_names(body.mass)]
+    """The masses or densities and then the moments of inertia, in the order of the bodies, rotors last."""
+    masses = [name for body in robot.bodies for name in (*_linear_names(body.mass), *_of_density(body))]
     given = [body.inertia for body in robot.bodies if body.inertia is not None and body.shape is None]
     rotors = [name for motor in robot.actions.rotors for name in _linear_names(motor.inertia)]
     inertias = [name for tensor in given for entry in tensor.entries for name in _linear_names(entry)]
     return list(dict.fromkeys([*masses, *inertias, *rotors]))
+
+
+def _of_density(body: Body) -> list[str]:
+    """The parameters of a density that are no length of the shape."""
+    if body.density is None or body.density.shape is None:
+        return []
+    lengths = {name for _, size in body.density.shape.dimensions for name in names_in(size)}
+    inside = tree.names_in(body.density.formula) - lengths
+    return [name for name in names_in(body.mass) if name in inside]
 
 
 def _linear_names(expr: Expr) -> list[str]:

@@ -65,7 +65,7 @@ class InertiaEntry(Struct, frozen=True, dict=True):
         whole = total([show(share.value) for share in shares])
         members = dict.fromkeys((whole, expanded_once(short.sums, form), form))
         many = len(shares) > 1
-        are_multiplied = many and any(share.has_both_parts for share in shares)
+        are_multiplied = many and any(not (one.linear.is_zero or one.angular.is_zero) for one in shares)
         lines: list[Line] = []
         for share in shares:
             lines += share.lines()
@@ -189,11 +189,6 @@ class BodyShare(Struct, frozen=True, dict=True):
             return self.context.robot.ring.zero
         tensor: algebra.Matrix = self.context.values[f"I_body{self.body.name}"]
         return (self.first.axis.T @ tensor @ self.last.axis)[0, 0]
-
-    @property
-    def has_both_parts(self) -> bool:
-        """Whether the body moves and turns with both joints."""
-        return not self.linear.is_zero and not self.angular.is_zero
 
     @property
     def in_letters(self) -> tuple[Node, ...]:

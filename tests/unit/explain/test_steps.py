@@ -387,3 +387,31 @@ def test_a_cosine_that_stays_is_no_step() -> None:
     arm = "dh: [{theta: q1* + 30deg, alpha: 90deg}, {theta: q2* + 180deg, a: l2}]\nfind: [J]\n"
     told = solved(arm).to_markdown("full")
     assert r"\cos(q_{2}^{\star} + 180" in told and r"\cos(q_{1}^{\star} + 30" not in told
+
+
+EQUAL_LINKS = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}, {theta: q2*, a: l}]
+masses: [{mass: m, link: 1}, {mass: %s, link: 2}]
+"""
+TAPERED = """
+gravity: [0, -g, 0]
+dh: [{theta: q*, a: L}]
+masses: [{link: 1, shape: {rod: {length: L, density: rho*(2 - x/L)}}}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "id", "told"),
+    [
+        (EQUAL_LINKS % "m", "P", "𝒫 = m g l (2s₁ + s₁₂)"),
+        (EQUAL_LINKS % "M", "P", "𝒫 = m g l s₁ + M g l (s₁ + s₁₂)"),
+        (EQUAL_LINKS % "m" + "springs: [{stiffness: k, of: q1}]\n", "P", "𝒫 = m g l (2s₁ + s₁₂) + ½ k q₁²"),
+        (TAPERED, "P1", "P₁ = 2ρ g L² sin(q)/3"),
+        (TAPERED, "K", "𝒦 = (5/24) ρ L³ q̇²"),
+    ],
+)
+def test_potential_energies_of_shared_terms_are_collected_and_densities_stand_as_masses_do(
+    problem: str, id: str, told: str
+) -> None:
+    assert shown(problem, id) == [told]
