@@ -606,6 +606,13 @@ def _minors_are_not_positive(m: Mechanism, s: Sentence) -> bool:
     return bool(points) and all(value < 1e-3 for value in lowest)
 
 
+@says("The leading minors are positive in every configuration only if {&}, which exclude each other.")
+def _conditions_exclude(m: Mechanism, s: Sentence) -> bool:
+    return _minors_are_not_positive(m, s) and not any(
+        all(m.holds(n, h) for n in s.formulas) for h in m.points(30)
+    )
+
+
 @says("{} is not positive in every configuration.")
 def _minor_is_not_positive(m: Mechanism, s: Sentence) -> bool:
     (told,) = [shown for shown in s.shown() if shown.parts[0] == s.formulas[0]]
@@ -615,7 +622,8 @@ def _minor_is_not_positive(m: Mechanism, s: Sentence) -> bool:
 @says("Where {}, {}, which is not positive.")
 def _minor_is_zero(m: Mechanism, s: Sentence) -> bool:
     (told,) = [shown for shown in s.shown() if shown.parts[0] == s.formulas[1].parts[0]]
-    return near(m.value(told.parts[-1], m.where(s.formulas[0])), 0)
+    here, value = m.where(s.formulas[0]), s.formulas[1].parts[-1]
+    return near(m.value(told.parts[-1], here), m.value(value, here)) and m.value(value, here) <= 0
 
 
 @says("It depends on {&}, which no inertia matrix of a chain with relative coordinates does.")

@@ -836,6 +836,9 @@ class _Stranger:
             "Mf": [["2", "cos(q2) + sin(q2)"], ["cos(q2) + sin(q2)", "1"]],
             "Mg": [["1 + q1^2", "1 + q1"], ["1 + q1", "2"]],
             "Mh": [["a1 + a2*q1 + a3*q1^2", "0"], ["0", "a4"]],
+            "Mi": [["a1*sin(q2)", "0"], ["0", "a2"]],
+            "Mj": [["2 + cos(q2)", "sin(q2)"], ["sin(q2)", self.one(["1", "1/2", "a1"])]],
+            "Mk": [["a1", "a2*q1"], ["a2*q1", "a2"]],
         }
         self.file["candidates"] = {name: matrices[name] for name in sorted(self.some(list(matrices), 3))}
         if self.chance(0.5):

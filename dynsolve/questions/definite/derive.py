@@ -16,7 +16,7 @@ so one coordinate after the other is taken out.
 
     A + B u,  u a sine or cosine     smallest at u = 1 or u = -1
     A + B u²                         at u = 0 or u = ±1
-    A + B u + C u²                   at u = ±1 where C ≤ 0, or its vertex lies outside
+    A + B u + C u²                   at u = ±1 where C ≤ 0, or its vertex lies outside; A - B²/(4C) inside
     A + B cos θ + C sin θ            A - √(B² + C²), so A > 0 and A² > B² + C²; A > |B| where C = 0
     A + B cos² θ + C sin θ cos θ     the same of 2θ
     A + B d + C d²,  d a length      A - B²/(4C), so C > 0 and 4AC > B²; also A > 0 where B = C = 0
@@ -74,7 +74,7 @@ def smallest(f: Expr, assumed: Sequence[Bound]) -> list[Extreme] | None:
     """Inequalities between parameters with which f > 0 for every q; None where none are found."""
     found = [Extreme(Bound(f))]
     ring = f.ring
-    while True:
+    while found:
         step = _next(_moving(found), found)
         if step is None:
             return found if not any(ring.depends_on_coordinates(e.bound.value) for e in found) else None
@@ -84,6 +84,7 @@ def smallest(f: Expr, assumed: Sequence[Bound]) -> list[Extreme] | None:
         found = list(dict.fromkeys(extreme for part in reduced if part for extreme in part))
         if len(found) > MOST:
             return None
+    return found
 
 
 def _moving(found: Sequence[Extreme]) -> Iterator[Pair | int]:
@@ -162,9 +163,12 @@ def _in_one(
     outside = (-C, B - C * 2, -B - C * 2)
     if C.is_zero or any(follows(Bound(value, False), assumed) for value in outside):
         return ends
-    if follows(Bound(A * C * 4 - B * B), assumed) and follows(Bound(A), assumed):
+    over_roots = A * C * 4 - B * B
+    if follows(Bound(over_roots), assumed) and follows(Bound(A), assumed):
         return []
-    return None
+    inside = (C, C * 2 - B, C * 2 + B)
+    is_inside = all(follows(Bound(value, value is not C), assumed) for value in inside)
+    return [replace(extreme, bound=Bound(over_roots, strict))] if is_inside else None
 
 
 # -- lengths ---------------------------------------------------------------------------------------
@@ -224,8 +228,8 @@ class Definiteness(Struct, frozen=True):
     `minors` are its leading ones; `conditions` what the parameters must satisfy beyond what is
     assumed, or if not `is_exact` what is enough; `order` (from 0) that of the rows and columns in them.  Of
     a matrix that can be none `refusal` says why, `place` the entry (from 0), `extreme` where which minor
-    (its `size`) is not positive, or if not `is_whole` what it is over those before it.  `moves_with_base`
-    is a remark.
+    (its `size`) is not positive, or if not `is_whole` what it is over those before it; or `excluding` are
+    conditions that exclude each other.  `moves_with_base` is a remark.
     """
 
     name: str
@@ -241,6 +245,7 @@ class Definiteness(Struct, frozen=True):
     order: tuple[int, ...] = ()
     moves_with_base: bool = False
     is_exact: bool = True
+    excluding: tuple[Bound, ...] = ()
 
 
 def rules(robot: Robot) -> Iterator[Rule]:
@@ -272,7 +277,8 @@ def definiteness(robot: Robot, candidate: Candidate) -> Definiteness | Skipped:
             left.append(one)
         else:
             return replace(one, moves_with_base=moves)
-    found = _with_conditions(candidate, min(left, key=_length)) if left else skipped[0]
+    answers = [_with_conditions(candidate, one) for one in sorted(left, key=_length)] or skipped
+    found = next((one for one in answers if not isinstance(one, Skipped)), answers[0])
     return found if isinstance(found, Skipped) else replace(found, moves_with_base=moves)
 
 
@@ -337,6 +343,10 @@ def _with_conditions(candidate: Candidate, left: _Left) -> Definiteness | Skippe
     for extreme in left.extremes:
         bound = simplified(extreme.bound, [*assumed, *needed])
         if not follows(bound, needed):
+            if is_exact and extreme.needed and follows(opposite(bound), [*assumed, *needed]):
+                excluding = _excluding(needed, extreme.bound, assumed)
+                refused = replace(left.found, answer=Answer.NO, refusal=Refusal.INDEFINITE)
+                return replace(refused, excluding=excluding)
             needed.append(bound)
             is_exact &= extreme.needed
     conditions = independent(needed, assumed)
@@ -347,6 +357,16 @@ def _with_conditions(candidate: Candidate, left: _Left) -> Definiteness | Skippe
         which = "all the parameters that are assumed" if some else "some parameters"
         return Skipped(f"whether {name} is positive definite for {which} is not found")
     return replace(left.found, answer=Answer.IF, conditions=conditions, is_exact=is_exact)
+
+
+def _excluding(needed: Sequence[Bound], bound: Bound, assumed: Sequence[Bound]) -> tuple[Bound, ...]:
+    """A bound, and those of others that it excludes together with what is assumed."""
+    kept = list(needed)
+    for one in needed:
+        rest = [other for other in kept if other is not one]
+        if follows(opposite(bound), [*assumed, *rest]):
+            kept = rest
+    return (*kept, bound)
 
 
 def _over(minor: Expr, before: Sequence[Expr]) -> Expr:

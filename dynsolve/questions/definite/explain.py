@@ -110,6 +110,12 @@ def reason(forms: Forms, found: Definiteness) -> Prose:
     if found.order != tuple(sorted(found.order)):
         order = ", ".join(str(k + 1) for k in found.order)
         taken = (f"Take the rows, and the columns, in the order {order}; any order will do. ",)
+    if found.excluding:
+        text = (
+            "{taken}The leading minors are positive in every configuration only if {these}, which exclude "
+            "each other."
+        )
+        return say(text, taken=taken, these=_all_of(forms, found.excluding))
     if found.refusal is Refusal.INDEFINITE:
         return (*taken, *_not_positive(forms, found))
     if found.refusal is not None:

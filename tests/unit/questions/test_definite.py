@@ -96,6 +96,7 @@ YES = {
     "a square in what is assumed": of_three("a + b", "b*sin(q2)", "[a > 0, b > 0, b < 1]"),
     "a chain of inequalities": of_three("a + b*cos(q2)", "0", "[a > b > 0]"),
     "a bound from below": of_three("a + b*cos(q1)*cos(q2)", "0", "[a + b > 0, a - b > 0]"),
+    "lowest between the ends": of_three("2 + cos(q2)", "sin(q2)"),
     "the minors from another entry on": of_two("[a > 0, a*c > b^2]"),
 }
 
@@ -147,6 +148,9 @@ REFUSED = {
     "a negative determinant": (of_three("1", "2"), Refusal.INDEFINITE),
     "never positive": (of_three("-a", "0", "[a > 0]"), Refusal.INDEFINITE),
     "a length that grows": (of_three("1 + d"), Refusal.INDEFINITE),
+    "a sine alone": (of_three("a*sin(q2)"), Refusal.INDEFINITE),
+    "a factor that a length grows by": (of_three("m", "m*d"), Refusal.INDEFINITE),
+    "below 0 between the ends": (of_three("1/8 + cos(q2) + 2*cos(q2)^2"), Refusal.INDEFINITE),
     "one of two minors": (file("[[a + b*d^2, 0, 0], [0, -1, 0], [0, 0, 1]]"), Refusal.INDEFINITE),
 }  # fmt: skip
 
@@ -157,6 +161,11 @@ def test_a_refusal_has_its_reason(name: str) -> None:
     one = found(text)
     assert (one.answer, one.refusal) == (Answer.NO, refusal)
     assert solve_json(text)["results"]["definite"]["M"]["why"]
+
+
+def test_conditions_that_exclude_each_other_are_told() -> None:
+    why = solve_json(REFUSED["a factor that a length grows by"][0])["results"]["definite"]["M"]["why"]
+    assert why.endswith("positive in every configuration only if m > 0 and -m ≥ 0, which exclude each other.")
 
 
 def test_of_minors_that_share_a_factor_no_value_is_told() -> None:
