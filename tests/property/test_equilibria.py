@@ -93,7 +93,8 @@ class Told:
         """The equilibria for these parameters; None where these are special, and no more is told."""
         for case in self.results.get("equilibria_special", []):
             if self._is_zero(case["where"], values):
-                return list(case["equilibria"])
+                needs = (text for text in case.get("exist", ()) if " = " in text)
+                return list(case["equilibria"]) if all(self._is_zero(one, values) for one in needs) else []
         return None if "equilibria_general" in self.results else list(self.results["equilibria"])
 
     def is_special(self, values: Mapping[str, float]) -> bool:

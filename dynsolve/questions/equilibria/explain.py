@@ -379,15 +379,15 @@ def _of_special_forces(shown: EquilibriaForms, case: SpecialCase, where: Node) -
     forces = shown.special_forces(case)
     if forces is None:
         return say("Where {where}, there is no equilibrium.", where=where)
+    needs = shown.special_needs(case)
+    only = say(" if {needs}, and none is if not", needs=as_row(listed(needs))) if needs else ""
     if not forces:
-        return say("Where {where}, every configuration is an equilibrium.", where=where)
-    if names_in(*forces).isdisjoint(q.name for q in shown.robot.coordinates):
-        text = "Where {where}, every configuration is an equilibrium if {zero}, and none is if not."
-        return say(text, where=where, zero=vanishing(forces))
+        return say("Where {where}, every configuration is an equilibrium{only}.", where=where, only=only)
     exist = side_by_side([*map(shown.inequality, case.exist)]) if case.exist else None
-    text = "Where {where}, the equilibria are where {zero}{exist}."
+    text = "Where {where}, the equilibria are where {zero}{exist}{only}."
     there = say(", which has solutions where {exist}", exist=exist) if exist else ""
-    return say(text, where=where, zero=vanishing(forces), exist=there)
+    only = say(" if {needs}, and there is none if not", needs=as_row(listed(needs))) if needs else ""
+    return say(text, where=where, zero=vanishing(forces), exist=there, only=only)
 
 
 def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> Step:

@@ -82,5 +82,6 @@ def _special(one: SpecialCase, shown: EquilibriaForms, printer: PythonPrinter) -
         return where
     forces = shown.special_forces(one)
     equations = [] if forces is None else [[f"{printer.text(force)} = 0" for force in forces]]
-    exist = {"exist": inequalities(shown, printer, one.exist)} if one.exist else {}
-    return {**where, "equilibria": equations, **exist}
+    needs = [plain_inequality(relation, printer) for relation in shown.special_needs(one)]
+    exist = [*needs, *inequalities(shown, printer, one.exist)]
+    return {**where, "equilibria": equations, **({"exist": exist} if exist else {})}

@@ -15,9 +15,9 @@ from dynsolve.derivation.existence import square_of
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.sets import Alternative
 from dynsolve.derivation.singular.zeros import Condition
-from dynsolve.notation.tree import Function, Node, Number, Power, Quotient, Symbol, equation
+from dynsolve.notation.tree import Function, Node, Number, Power, Quotient, Relation, Symbol, equation
 from dynsolve.questions.equilibria.solving import SpecialCase, assumed_signs
-from dynsolve.questions.set_forms import SetForms
+from dynsolve.questions.set_forms import SetForms, may_vanish
 from dynsolve.robot.model import JointType
 
 
@@ -113,6 +113,10 @@ class EquilibriaForms(SetForms):
         if any(is_positive(force) or is_positive(-force) for force in case.forces):
             return None
         return tuple(dict.fromkeys(map(self.vanishing, case.forces)))
+
+    def special_needs(self, case: SpecialCase) -> tuple[Relation, ...]:
+        """Equations between parameters alone that must hold, too, for there to be equilibria."""
+        return tuple(self.comparison(may_vanish(one), "=") for one in case.needs)
 
     @cached_property
     def balance(self) -> tuple[Node, ...]:

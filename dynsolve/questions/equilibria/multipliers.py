@@ -42,7 +42,7 @@ from dynsolve.derivation.singular.sets import (
     lies_in,
     zeros_of_any,
 )
-from dynsolve.derivation.singular.zeros import Condition
+from dynsolve.derivation.singular.zeros import Condition, never_together
 from dynsolve.robot.model import Robot
 
 MOST_SETS = 8
@@ -215,11 +215,12 @@ class Multipliers(Struct, frozen=True):
         ]
         return Settled((*full, *(one for one, _ in new)), (*excluded, *(but for _, but in new)))
 
-    def holds_everywhere(self, rank: int, signs: ParameterSigns) -> bool:
-        """Whether all parameters have multipliers wherever `zeros(rank)` are 0, as far as is found."""
+    def holds_where_zero(self, factor: Expr, signs: ParameterSigns) -> bool:
+        """Whether, where a factor is 0, there are multipliers wherever `zeros` are, as far as is found."""
         special = Special(signs)
         with suppress(TooLong):
-            return self._holds_where_dependent(rank, special) and special.is_empty
+            holds = self.where_zero(factor)._holds_where_dependent(self.rank, special) and not special.is_open
+            return holds and all(never_together((one, factor), factor.ring.one) for one in special.factors)
         return False
 
     def _holds_where_dependent(self, rank: int, special: Special) -> bool:
@@ -230,7 +231,10 @@ class Multipliers(Struct, frozen=True):
 
 
 def remainder(value: Expr, factor: Expr) -> Expr:
-    """What is left of a value where a factor is 0."""
+    """What is left of a value where a factor is 0; with sin α = 0 also sin² α, as cos² α = 1."""
+    condition = Condition(factor)
+    if condition.fixes_coordinate:
+        return condition.reduced(value)
     return Expr(value.ring, value.ring.reduce(divmod(value.poly, factor.poly)[1]))
 
 

@@ -60,7 +60,8 @@ TOO_LONG = "gravity and springs are too long to be taken apart into factors"
 class SpecialCase(Struct, frozen=True):
     """A factor of parameters alone, and the expressions that must be 0 in an equilibrium where it is 0.
 
-    `exist` is what the parameters must satisfy for that; without forces it is not known what is one.  Where
+    `needs` are expressions of parameters alone that must be 0 for there to be one, `exist` inequalities that
+    must hold; without forces it is not known what is one.  Where
     only the rank of A_c is another, the equilibria are those for all parameters without the sets that are
     `excluded`, if these are known.
     """
@@ -70,6 +71,7 @@ class SpecialCase(Struct, frozen=True):
     exist: tuple[Bound, ...] = ()
     is_of_rank: bool = False
     excluded: tuple[Alternative, ...] = ()
+    needs: tuple[Expr, ...] = ()
 
     @property
     def is_known(self) -> bool:
@@ -180,7 +182,7 @@ class _Search:
         self.special, self.of_rank = Special(self.signs), Special(self.signs)
         self.held = held.moved(self.there) if held else None
         self.wanted = [*map(self.there, wanted)]
-        self.left = tuple(combined(robot, wanted, lambda factor: self.special.add(self.there(factor))))
+        self.left = tuple(combined(robot.ring, wanted, lambda factor: self.special.add(self.there(factor))))
 
     def found(self, forces: Matrix, inertia: Matrix | None, may_be_held: bool) -> Equilibria:
         """The equilibria; raises TooLong."""
@@ -337,11 +339,16 @@ def _special_case(
     factor: Expr, zeros: Sequence[Expr], held: Multipliers | None, signs: ParameterSigns
 ) -> SpecialCase:
     """What is known where a factor is 0; nothing where with this the rows of A_c may be dependent."""
-    if held and not held.where_zero(factor).holds_everywhere(held.rank, signs):
+    if held and not held.holds_where_zero(factor, signs):
         return SpecialCase(factor, None)
-    left = _modulo(factor, zeros)
-    exist = conditions(left, signs)
-    return SpecialCase(factor, (factor.ring.one,)) if exist is None else SpecialCase(factor, left, exist)
+    left = [_where_zero(row, factor) for row in _modulo(factor, zeros, signs)]
+    ring = factor.ring
+    forces = tuple(row for row in left if ring.depends_on_coordinates(row))
+    needs = dict.fromkeys(prod(signs.open_factors(row), start=ring.one) for row in left if row not in forces)
+    exist = conditions(forces, signs)
+    if exist is None or ring.one in needs:
+        return SpecialCase(factor, (ring.one,))
+    return SpecialCase(factor, forces, exist, needs=tuple(needs))
 
 
 def _of_rank(factor: Expr, held: Multipliers, settled: Settled, signs: ParameterSigns) -> SpecialCase | None:
@@ -363,13 +370,12 @@ def _of_rank(factor: Expr, held: Multipliers, settled: Settled, signs: Parameter
     return SpecialCase(factor, None, (), True, tuple(dict.fromkeys(more))) if more else None
 
 
-def _modulo(factor: Expr, forces: Iterable[Expr]) -> tuple[Expr, ...]:
-    """What is left of forces where a factor is 0, without those that are 0, too.
-
-    And without factors that are not 0 then, as cos α where sin α is 0.
-    """
-    rests = (remainder(force, factor) for force in forces)
-    return tuple(dict.fromkeys(_where_zero(rest, factor) for rest in rests if not rest.is_zero))
+def _modulo(factor: Expr, zeros: Iterable[Expr], signs: ParameterSigns) -> tuple[Expr, ...]:
+    """What is left of `zeros` where a factor is 0, combined where that divides by nothing that may be 0."""
+    rests = [rest for zero in zeros if not (rest := remainder(zero, factor)).is_zero]
+    divided = Special(signs)
+    rows = tuple(combined(factor.ring, rests, divided.add, factor))
+    return rows if divided.is_empty else tuple(dict.fromkeys(rests))
 
 
 def _where_zero(rest: Expr, factor: Expr) -> Expr:
@@ -383,22 +389,31 @@ def _where_zero(rest: Expr, factor: Expr) -> Expr:
     return prod(kept, start=ring.one)
 
 
-def combined(robot: Robot, forces: Sequence[Expr], use: Callable[[Expr], None]) -> Iterator[Expr]:
+def combined(
+    ring: Ring, forces: Sequence[Expr], use: Callable[[Expr], None], zero: Expr | None = None
+) -> Iterator[Expr]:
     """Combinations of forces that are 0 where these are: each without what the others begin with.
 
-    `use` is told what must not be 0 for that: factors that are multiplied by or divided out.
+    `use` is told what must not be 0 for that: factors that are multiplied by or divided out.  Where a factor
+    of parameters is `zero`, what holds no coordinate is left as it is.
     """
-    kinds = generators(robot.ring, frozenset())
-    left = [row for row in map(_row(robot, kinds), forces) if row]
+    kinds = generators(ring, frozenset())
+    left = [row for row in map(_row(ring, kinds), forces) if row]
     done: list[dict[Any, Expr]] = []
     while left:
         lead = max(key for row in left for key in row)
-        chosen = min((row for row in left if lead in row), key=lambda row: (len(row), _size(row)))
+        if zero is not None and not any(lead):
+            break
+        leading = [row for row in left if lead in row]
+        if zero is not None:  # what is divided by should not be 0, as a product of parameters is not
+            leading = [row for row in leading if len(row[lead]) == 1] or leading
+        chosen = min(leading, key=lambda row: (len(row), _size(row)))
         others = [row for row in left if row is not chosen]
-        left = [row for row in (_without(other, chosen, lead, use) for other in others) if row]
-        done = [_without(row, chosen, lead, use) for row in done]
+        left = [row for row in (_without(other, chosen, lead, use, zero) for other in others) if row]
+        done = [_without(row, chosen, lead, use, zero) for row in done]
         done.append(chosen)
-    yield from (expression(robot.ring, _primitive(row, use)) for row in done)
+    yield from (expression(ring, _primitive(row, use)) for row in done)
+    yield from (expression(ring, row) for row in left)
 
 
 def _primitive(row: dict[Any, Expr], use: Callable[[Expr], None]) -> dict[Any, Expr]:
@@ -414,11 +429,11 @@ def _quotient(value: Expr, divisor: Expr) -> Expr:
     return Expr(value.ring, divmod(value.poly, divisor.poly)[0])
 
 
-def _row(robot: Robot, kinds: Generators) -> Any:
+def _row(ring: Ring, kinds: Generators) -> Any:
     """A force as a vector: polynomials in the parameters by the product of what moves."""
 
     def row(force: Expr) -> dict[Any, Expr]:
-        moving = Generators(frozenset(range(len(robot.ring.generators))) - kinds.moving, kinds.moving)
+        moving = Generators(frozenset(range(len(ring.generators))) - kinds.moving, kinds.moving)
         found: dict[Any, Expr] = {}
         for factor, vector in moving.split(force):
             for key, number in vector.items():
@@ -430,7 +445,7 @@ def _row(robot: Robot, kinds: Generators) -> Any:
 
 
 def _without(
-    row: dict[Any, Expr], chosen: dict[Any, Expr], lead: Any, use: Callable[[Expr], None]
+    row: dict[Any, Expr], chosen: dict[Any, Expr], lead: Any, use: Callable[[Expr], None], zero: Expr | None
 ) -> dict[Any, Expr]:
     """A row less so much of another that `lead` is gone; it is multiplied by a parameter for that."""
     if lead not in row:
@@ -441,7 +456,10 @@ def _without(
     found = {key: value * theirs for key, value in row.items()}
     for key, value in chosen.items():
         found[key] = found[key] - value * mine if key in found else -(value * mine)
-    return _primitive({key: value for key, value in found.items() if not value.is_zero}, use)
+    if zero is not None:
+        found = {key: remainder(value, zero) for key, value in found.items()}
+    found = {key: value for key, value in found.items() if not value.is_zero}
+    return found if zero is not None and not any(map(any, found)) else _primitive(found, use)
 
 
 def _size(row: dict[Any, Expr]) -> int:

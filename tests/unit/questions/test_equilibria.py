@@ -141,7 +141,8 @@ def test_an_answer_for_parameters_that_are_special_is_judged_by_the_forces() -> 
     ("energy", "special"),
     [
         ("a*x*y + b*x^2/2 + c*y^2/2 - d*x - e*y",
-         [{"where": "a**2 = b*c", "equilibria": [["a*y + b*x - d = 0", "a*x + c*y - e = 0"]]}]),
+         [{"where": "a**2 = b*c", "equilibria": [["a*y + b*x - d = 0"]], "exist": ["a*d = b*e"]}]),
+        ("a*x*y + b*x^2/2 + c*y^2/2 - d*x", [{"where": "a**2 = b*c", "equilibria": []}]),
         ("(a - b)*x^2 + (a - b)*y^2", [{"where": "a = b", "equilibria": [[]]}]),
         ("(a - b)*x^2*y^2/2 + (a - b)*x*y", [{"where": "a = b", "equilibria": [[]]}]),
         ("(a - b)*x^2 + c*y^2 + d*x", [{"where": "a = b", "equilibria": []}]),
@@ -149,6 +150,44 @@ def test_an_answer_for_parameters_that_are_special_is_judged_by_the_forces() -> 
 )  # fmt: skip
 def test_what_is_multiplied_by_counts_too(energy: str, special: list[dict[str, Any]]) -> None:
     assert of_energy(energy, "xy").get("equilibria_special", []) == special
+
+
+SLOPE = """
+gravity: [0, -g, 0]
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}
+constraints: [x*sin(alpha) - y*cos(alpha)]
+find: [equilibria]
+"""
+PULLEYS = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, y: prismatic, z: prismatic}
+  bodies: [{mass: m1, at: [0, -x, 0]}, {mass: m2, at: [0, -y, 0]}, {mass: m3, at: [0, -z, 0]}]
+constraints: [x + 2*y + z - L]
+find: [equilibria]
+"""
+CONE = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {psi: revolute, r: prismatic}
+  bodies: [{mass: m, at: [r*sin(alpha)*cos(psi), r*sin(alpha)*sin(psi), r*cos(alpha)]}]
+steady: {psi: W}
+find: [equilibria]
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "special"),
+    [
+        (SLOPE, {"where": "sin(alpha) = 0", "equilibria": [["y = 0"]]}),  # level: wherever it lies
+        (PULLEYS, {"where": "2*m1 = m2", "equilibria": [["x + 2*y + z - L = 0"]], "exist": ["m2 = 2*m3"]}),
+        (CONE, {"where": "sin(alpha) = 0", "equilibria": []}),  # upright: it falls
+    ],
+)
+def test_what_special_parameters_ask_of_others_is_no_equation_of_the_set(
+    problem: str, special: dict[str, Any]
+) -> None:
+    assert dynsolve.solve(problem).to_json()["results"]["equilibria_special"] == [special]
 
 
 def test_a_negative_minor_of_any_size_decides() -> None:
