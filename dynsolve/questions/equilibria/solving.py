@@ -198,8 +198,11 @@ class _Search:
         for condition in (condition for one in exist for condition in one):
             if condition.fixes_length and condition.linear:  # where the factor of the length is 0, it is free
                 self.special.add(condition.linear[0])
-        points = self._points(exist, forces, may_be_held)
         special = self.special
+        special.factors = {
+            factor: None for factor in special.factors if not self._is_ordinary(factor, [*exist])
+        }
+        points = self._points(exist, forces, may_be_held)
         short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
         never = (_never(one, self.signs) for one in alternatives if one not in possible)
         return Equilibria(
@@ -232,6 +235,18 @@ class _Search:
             self.special.join(self.of_rank)
             self.of_rank = Special(self.signs)
         return settled.alternatives if settled else alternatives, settled
+
+    def _is_ordinary(self, factor: Expr, cases: Sequence[Alternative]) -> bool:
+        """Whether the equations of the only case, too, say what the forces do where a factor is 0."""
+        if len(cases) != 1 or self.special.never or _is_unknown(factor, self.held, self.signs):
+            return False
+        divided = Special(self.signs)
+
+        def rows(zeros: Iterable[Expr]) -> list[Expr]:
+            return [*combined(factor.ring, _rests(factor, zeros), divided.add, factor)]
+
+        own, theirs = rows(condition.expr for condition in cases[0]), rows(self.wanted)
+        return len(own) == len(theirs) == len(rows([*own, *theirs])) and divided.is_empty
 
     def _singular(self, cases: Iterable[Alternative], inertia: Matrix | None) -> list[Alternative]:
         """Cases in which a coordinate of a model describes nothing."""
@@ -335,11 +350,16 @@ def assumed_signs(robot: Robot, there: Transfer) -> ParameterSigns:
     return ParameterSigns(tuple(Bound(there(bound.value), bound.is_strict) for bound in assumed))
 
 
+def _is_unknown(factor: Expr, held: Multipliers | None, signs: ParameterSigns) -> bool:
+    """Whether where a factor is 0 the rows of A_c may be dependent."""
+    return held is not None and not held.holds_where_zero(factor, signs)
+
+
 def _special_case(
     factor: Expr, zeros: Sequence[Expr], held: Multipliers | None, signs: ParameterSigns
 ) -> SpecialCase:
     """What is known where a factor is 0; nothing where with this the rows of A_c may be dependent."""
-    if held and not held.holds_where_zero(factor, signs):
+    if _is_unknown(factor, held, signs):
         return SpecialCase(factor, None)
     left = [_where_zero(row, factor) for row in _modulo(factor, zeros, signs)]
     ring = factor.ring
@@ -372,10 +392,15 @@ def _of_rank(factor: Expr, held: Multipliers, settled: Settled, signs: Parameter
 
 def _modulo(factor: Expr, zeros: Iterable[Expr], signs: ParameterSigns) -> tuple[Expr, ...]:
     """What is left of `zeros` where a factor is 0, combined where that divides by nothing that may be 0."""
-    rests = [rest for zero in zeros if not (rest := remainder(zero, factor)).is_zero]
+    rests = _rests(factor, zeros)
     divided = Special(signs)
     rows = tuple(combined(factor.ring, rests, divided.add, factor))
     return rows if divided.is_empty else tuple(dict.fromkeys(rests))
+
+
+def _rests(factor: Expr, zeros: Iterable[Expr]) -> list[Expr]:
+    """What is left of each, without those that are 0."""
+    return [rest for zero in zeros if not (rest := remainder(zero, factor)).is_zero]
 
 
 def _where_zero(rest: Expr, factor: Expr) -> Expr:

@@ -190,6 +190,23 @@ def test_what_special_parameters_ask_of_others_is_no_equation_of_the_set(
     assert dynsolve.solve(problem).to_json()["results"]["equilibria_special"] == [special]
 
 
+def test_what_is_divided_by_and_changes_nothing_is_not_special() -> None:
+    """Two masses on a turning rod, by hand: with M W² = k, too, r = -m b/M and s = b."""
+    rod = """
+gravity: none
+model:
+  coordinates: {psi: revolute, r: prismatic, s: prismatic}
+  bodies:
+    - {mass: M, at: [r*cos(psi), r*sin(psi), 0]}
+    - {mass: m, at: [s*cos(psi), s*sin(psi), 0]}
+springs: [{stiffness: k, of: s - r, rest: b}]
+steady: {psi: W}
+find: [equilibria]
+"""
+    (special,) = dynsolve.solve(rod).to_json()["results"]["equilibria_special"]
+    assert special == {"where": "M*m*W**2 = k*(M + m)", "equilibria": []}
+
+
 def test_a_negative_minor_of_any_size_decides() -> None:
     """The minors of sizes 1 and 2 are positive, and x + y + z falls (by hand: 1 - 2·3/4 < 0)."""
     energy = "x^2 + y^2 + z^2 - 3*(x*y + y*z + x*z)/2"
