@@ -7,7 +7,7 @@ from functools import cached_property
 from math import gcd, lcm
 
 from dynsolve.algebra.angles import angle_node
-from dynsolve.algebra.factors import is_positive
+from dynsolve.algebra.factors import is_positive, ratio
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import turn_of
@@ -15,8 +15,9 @@ from dynsolve.derivation.existence import square_of
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.sets import Alternative
 from dynsolve.derivation.singular.zeros import Condition
+from dynsolve.notation.build import cost
 from dynsolve.notation.tree import Function, Node, Number, Power, Quotient, Relation, Symbol, equation
-from dynsolve.questions.equilibria.solving import SpecialCase, assumed_signs
+from dynsolve.questions.equilibria.solving import Equilibria, SpecialCase, assumed_signs
 from dynsolve.questions.set_forms import SetForms, may_vanish
 from dynsolve.robot.model import JointType
 
@@ -27,7 +28,26 @@ class EquilibriaForms(SetForms):
     @cached_property
     def equilibria(self) -> tuple[tuple[Node, ...], ...]:
         """The equilibria: alternatives of expressions that are 0 together; none where they are too long."""
-        return self.alternatives("equilibria")
+        found = self.values["equilibria"]
+        if isinstance(found, Skipped):
+            return ()
+        return tuple(tuple(self._shortest(one, case, found) for one in case) for case in found.alternatives)
+
+    def alternatives(self, name: str) -> tuple[tuple[Node, ...], ...]:
+        """The alternatives of a set of equations, by its name."""
+        return self.equilibria if name == "equilibria" else super().alternatives(name)
+
+    def _shortest(self, condition: Condition, case: Alternative, found: Equilibria) -> Node:
+        """What is 0 where a condition holds, or a row that is so beside fixed angles and lengths."""
+        there = Transfer(self.robot.ring, condition.expr.ring)
+        forms = [self.condition(condition)]
+        for row in () if condition.fixes_coordinate else found.rows:
+            value = there(row)
+            for other in case:
+                value = other.reduced(value) if other.fixes_coordinate else value
+            if not value.is_zero and value == condition.expr * ratio(value, condition.expr):
+                forms.append(self.condition(Condition(row)))
+        return min(forms, key=cost)
 
     @cached_property
     def excluded(self) -> tuple[tuple[tuple[Node, ...], ...], ...]:

@@ -27,6 +27,14 @@ from dynsolve.solution.leading import leading
 from dynsolve.solution.reports import report
 from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD, LIFT, MASSES, POLE
 
+SPRUNG = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+springs: [{stiffness: k, of: q1 + q2}]
+find: [equilibria]
+"""
+
 
 @pytest.mark.parametrize(
     ("problem", "equilibria"),
@@ -36,6 +44,7 @@ from tests.unit.answers.judging.test_equilibria import ARM, ELASTIC, FLAT, HELD,
         (MASSES, [["q1 - q3 = 0", "q2 - q3 = 0"]]),  # Sapienza, Robotics 2, 28 October 2016: q1 = q2 = q3
         (ELASTIC, [["sin(q1) = 0", "q1 - q2 = 0"]]),
         (HELD, [["k*(q1 - q2) + m*g*l*sin(q1) = 0"]]),
+        (SPRUNG, [["cos(q1) = 0", "k*(q1 + q2) + m2*g*l2*cos(q1 + q2) = 0"]]),  # and not with s₁s₂ for c₁₂
         (LIFT, []),
         (FLAT, [[]]),
     ],
