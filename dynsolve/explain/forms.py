@@ -31,7 +31,7 @@ from dynsolve.explain.parameter_meanings import angles_in, names_in
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, split_sign, times, total
 from dynsolve.notation.printing import decimal_text
-from dynsolve.notation.tree import ZERO, Negative, Node, Number, Power, Product, Symbol, walk
+from dynsolve.notation.tree import ZERO, Function, Negative, Node, Number, Power, Product, Symbol, walk
 from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
@@ -95,7 +95,9 @@ class Forms:
         if found is None:
             found = self._make(name)
             quantity = quantities(self.robot).of_rule(name)
-            if quantity is not None and quantity.family in _ENERGIES:
+            if quantity is not None and quantity.family in (families.P_BODY, families.P):
+                found = _without_minus(found)
+            elif quantity is not None and quantity.family in _ENERGIES:
                 found = _with_squares_first(_without_minus(number_in_front(found)), self.robot.ring.names)
             self._made[name] = found
         return found
@@ -279,20 +281,22 @@ def _with_halves(node: Node) -> Node:
 
 
 def _with_squares_first(node: Node, names: Sequence[str]) -> Node:
-    """An energy without a minus before the square of a rate: - (a - b) q̇₁² is (b - a) q̇₁², in its place."""
+    """An energy without a minus before a square: - (a - b) q̇₁² is (b - a) q̇₁², in its place."""
     if isinstance(node, Product):
         return Product(tuple(_with_squares_first(factor, names) for factor in node.factors))
     if not isinstance(node, tree.Sum):
         return node
-    turned = [_without_minus(term) if _has_squared_rate(term) else term for term in node.terms]
+    terms = (_without_minus(term) if _has_square(term) else term for term in node.terms)
+    turned = [_with_squares_first(term, names) for term in terms]
     if turned == list(node.terms):
         return node
     return tree.Sum(tuple(sorted(turned, key=lambda term: _rates(term, names))))
 
 
-def _has_squared_rate(term: Node) -> bool:
-    factors = factors_of(split_sign(term)[1])
-    return any(isinstance(f, Power) and isinstance(f.base, Symbol) and f.base.dots == 1 for f in factors)
+def _has_square(term: Node) -> bool:
+    """Whether the square of a rate, a sine or a cosine is a factor of a term."""
+    bases = [f.base for f in factors_of(split_sign(term)[1]) if isinstance(f, Power)]
+    return any(base.dots == 1 if isinstance(base, Symbol) else isinstance(base, Function) for base in bases)
 
 
 def _rates(term: Node, names: Sequence[str]) -> list[int]:

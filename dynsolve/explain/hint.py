@@ -36,13 +36,13 @@ def hint_document(title: str, context: Context, stage: str) -> Document:
     asked = Stage(stage)
     if asked not in stages_of(context.robot):
         raise UsageError(_why_absent(context, asked))
-    heading = heading_of(asked, context.robot)
+    heading, mistakes = heading_of(asked, context.robot), tuple(pitfalls(context.robot, asked))
     return Document((
         Heading(title, 1),
         Heading(f"Hint: {heading[0].lower()}{heading[1:]}"),
         *_given(context, asked),
         *_tasks(context, asked),
-        *_look_out(context, asked),
+        *((Text(("Look out:",)), List(mistakes)) if mistakes else ()),
     ))  # fmt: skip
 
 
@@ -156,15 +156,6 @@ def _title(step: Step) -> str:
 
 def _lowered(title: str) -> str:
     return title[0].lower() + title[1:] if title[1:2].islower() else title
-
-
-# -- what to look out for --------------------------------------------------------------------------
-
-
-def _look_out(context: Context, stage: Stage) -> Iterator[Block]:
-    if items := tuple(pitfalls(context.robot, stage)):
-        yield Text(("Look out:",))
-        yield List(items)
 
 
 # -- the most frequent mistakes of a stage that can be made with this robot ------------------------

@@ -415,3 +415,25 @@ def test_potential_energies_of_shared_terms_are_collected_and_densities_stand_as
     problem: str, id: str, told: str
 ) -> None:
     assert shown(problem, id) == [told]
+
+
+HANGING = """
+gravity: [0, -g, 0]
+model: {coordinates: {y: prismatic}, bodies: [{mass: m, at: [0, h - y, 0]}]}
+"""
+ABOUT_THE_JOINT = """
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l}]
+masses: [{mass: m, link: 2, center: {near: [c, 0, 0]}, inertia: {xx: A, yy: B, zz: G}, about: joint}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "id", "told"),
+    [
+        (HANGING, "P1", "P₁ = m g (h - y)"),
+        (HANGING, "P", "𝒫 = m g (h - y)"),
+        (ABOUT_THE_JOINT, "Kw1", "K_ω1 = ½ ((A s₂² + (B - m c²) c₂²) q̇₁² + (G - m c²) q̇₂²)"),
+    ],
+)
+def test_no_sign_is_drawn_out_of_a_difference_of_an_energy(problem: str, id: str, told: str) -> None:
+    assert shown(problem, id) == [told]
