@@ -468,7 +468,8 @@ def _adds(m: Mechanism, s: Sentence) -> bool:
 def _moments(m: Mechanism, s: Sentence) -> bool:
     entries = [node for node in s.formulas if plain(node).startswith("d")]
     axes = [int(plain(node)[1:]) for node in s.formulas[len(entries) :]]
-    joints = [int(joint) for joint in re.findall(r"\d+", " ".join(s.words))]
+    rows = [joint.index for joint in m.solution.robot.joints if joint.type]
+    joints = [rows[int(joint) - 1] for joint in re.findall(r"\d+", " ".join(s.words))]
     for k, d in enumerate(entries):
         for p in m.points():
             z, o = (m.frame(axes[k], p)[:3, 2:] if axes else m.axis(joints[k], p)).T
