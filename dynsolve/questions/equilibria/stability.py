@@ -25,6 +25,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, independent
 from dynsolve.algebra.linear_systems import part, rank_parts
@@ -352,6 +353,8 @@ def _there(matrix: Matrix, values: Values, zeros: Sequence[Expr]) -> Matrix:
         turn = turn_of(zero)
         if turn is not None and turn.is_one_sided:
             matrix = _at_turn(matrix, turn)
+        elif turn is not None and (line := _along_line(turn)) is not None:
+            matrix = _at_line(matrix, *line)
         elif (square := square_of(zero)) is not None:
             matrix = _at_square(matrix, *square)
         else:
@@ -400,6 +403,38 @@ def _at_turn(second: Matrix, turn: Turn) -> Matrix:
         return total
 
     return second.map(put)
+
+
+def _along_line(turn: Turn) -> tuple[tuple[int, Expr], tuple[int, Expr]] | None:
+    """(x, a) and (y, b) of a y + b x = 0, sine and cosine in either order; None where a may be 0."""
+    both = (turn.pair.cosine, turn.sine), (turn.pair.sine, turn.cosine)
+    for one, other in (both, both[::-1]):
+        if turn.rest.is_zero and (is_positive(one[1]) or is_positive(-one[1])):
+            return one, other
+    return None
+
+
+def _at_line(matrix: Matrix, one: tuple[int, Expr], other: tuple[int, Expr]) -> Matrix:
+    """The matrix where a y + b x = 0 for the sine and the cosine of an angle, times an even power of a.
+
+    With x² = a²/(a² + b²), and times a power of a² + b².
+    """
+    ring, (x, a), (y, b) = matrix.ring, one, other
+    powers = [(int(e[x]), int(e[y])) for entry in matrix.entries for e in entry.poly.monoms()]
+    most = max((j for _, j in powers), default=0)
+    even, squares, size = most + most % 2, max((sum(both) // 2 for both in powers), default=0), a * a + b * b
+
+    def put(expr: Expr) -> Expr:
+        total = ring.zero
+        for exponents, number in expr.poly.to_dict().items():
+            i, j = int(exponents[x]), int(exponents[y])
+            plain = tuple((i + j) % 2 if k == x else 0 if k == y else e for k, e in enumerate(exponents))
+            own = Expr(ring, ring.ctx.from_dict({plain: number}))
+            twice = (i + j) // 2
+            total += own * (-b) ** j * a ** (even - j + 2 * twice) * size ** (squares - twice)
+        return total
+
+    return matrix.map(put)
 
 
 def _turned(ring: Ring, pose: Pose) -> Values:

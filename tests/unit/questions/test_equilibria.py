@@ -75,6 +75,21 @@ def test_an_elastic_joint_holds_below() -> None:
     assert [point["stability"] for point in points] == ["stable", "unstable"]
 
 
+def test_where_a_tangent_is_known_the_sign_of_its_cosine_decides() -> None:
+    """By hand: with tan φ = -b/a the curvature a cos φ - b sin φ is (a² + b²) cos φ / a."""
+    leaning = (
+        "gravity: none\nmodel: {coordinates: {phi: revolute}, D: [[1]], P: '-a*cos(phi) + b*sin(phi)'}\n"
+    )
+    ((point,),) = dynsolve.solve(f"{leaning}find: [equilibria]\n").to_json()["results"][
+        "equilibria_stability"
+    ]
+    assert (point["stable_if"], point["unstable_if"]) == (["cos(phi) > 0"], ["cos(phi) < 0"])
+    tilted = ARM.replace("gravity: [0, -g, 0]", "gravity: [g/2, -g*sqrt(3)/2, 0]")
+    (points,) = dynsolve.solve(tilted).to_json()["results"]["equilibria_stability"]
+    assert [point.get("stable_if") for point in points] == [["cos(q1) > 0"], None]
+    assert points[1] == {"q2": "pi", "stability": "unstable"}
+
+
 def test_the_check_finds_what_is_wrong() -> None:
     robot = read_problem(ARM).robot
     values = derive(robot)
