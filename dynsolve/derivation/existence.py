@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -65,7 +66,8 @@ def square_of(zero: Expr) -> tuple[int, Expr, Expr] | None:
 def is_seen(values: Sequence[Expr], signs: ParameterSigns) -> bool:
     """Whether `conditions` are enough for these to be 0 together.
 
-    Those in which the same coordinates stand are looked at together.  They are 0 where no angle stands in two
+    Those in which the same coordinates stand are looked at together, without what has a coordinate of its own
+    and is 0 somewhere whatever the others are.  They are 0 where no angle stands in two
     of their swings, where they are so at quarter turns without lengths, whatever the parameters, or where one
     stands alone and is positive somewhere and negative elsewhere, or the square of a length less a number.
     """
@@ -73,8 +75,37 @@ def is_seen(values: Sequence[Expr], signs: ParameterSigns) -> bool:
         _swing_apart(group, signs)
         or any(all(map(_is_zero, at)) for _, at in _at_quarters(group))
         or (len(group) == 1 and (square_of(group[0]) is not None or _changes_sign(group[0], signs)))
-        for group in _apart(values)
+        for group in map(partial(_without_solved, signs=signs), _apart(values))
     )
+
+
+def _without_solved(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
+    """The values that are no odd polynomial in a coordinate that stands in no other one."""
+    kept = []
+    for value in values:
+        others = [other for other in values if other is not value]
+        own = {*_coordinates(value)}.difference(*map(_coordinates, others))
+        degrees = {name: int(value.poly.degrees()[value.ring.symbol_indices[name, 0]]) for name in own}
+        leading = (_leading(value, name, degree) for name, degree in degrees.items() if degree % 2)
+        if not any(_is_never_zero(one, others, signs) for one in leading):
+            kept.append(value)
+    return kept
+
+
+def _is_never_zero(value: Expr, zeros: Iterable[Expr], signs: ParameterSigns) -> bool:
+    """Whether a value is not 0 where others are that fix its angles at quarter turns."""
+    names = {*_coordinates(value)}
+    fixing = [
+        zero
+        for zero in zeros
+        if len(_coordinates(zero)) == 1
+        and names.issuperset(_coordinates(zero))
+        and (swings := _swings(zero))
+        and _quarters(swings)
+    ]
+    at = [here for _, (here, *left) in _at_quarters([value, *fixing]) if all(map(_is_zero, left))]
+    known = all(signs.is_positive(here) or signs.is_positive(-here) for here in at)
+    return bool(at) and known and names.issubset(name for zero in fixing for name in _coordinates(zero))
 
 
 def _apart(values: Iterable[Expr]) -> list[list[Expr]]:

@@ -147,6 +147,22 @@ def test_that_parameters_may_forbid_a_case_is_said_where_it_is_not_seen() -> Non
         assert ("For which parameters this has solutions is not told here." in shown) == is_said
 
 
+HANGING = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, alpha: 90deg}, {d: q3*}]
+masses: [{mass: m1, link: 1}, {mass: m3, link: 3, center: origin}]
+constraints: [tip.x, tip.y + h]
+find: [equilibria]
+"""
+"""The tip below the base, an elbow above or below it: the third joint is as long as that asks for."""
+
+
+@pytest.mark.parametrize("problem", [SPRUNG, HANGING])
+def test_an_equation_that_a_coordinate_of_its_own_solves_forbids_nothing(problem: str) -> None:
+    """By hand: k q₂ + m₂ g l₂ cos(q₁ + q₂) + k q₁ goes from -∞ to ∞; l₁ + q₃ + h = 0 gives q₃."""
+    assert "is not told here" not in str(told_of(problem).notes)
+
+
 def test_what_nothing_changes_along_is_left_out_of_the_matrix_and_of_what_is_not_stable() -> None:
     mast = "dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l}]\nmasses: [{mass: m, link: 2}]\n"
     shown = " ".join(report(dynsolve.solve(mast + "find: [equilibria]\n"), Format.TEXT).decode().split())
