@@ -230,7 +230,7 @@ class ParameterSigns(Struct, frozen=True):
         if not self.assumed or factor.ring.depends_on_coordinates(factor):
             return 0
         for sign, bound in product((1, -1), self.assumed):
-            if _is_more(factor * sign, bound):
+            if is_more(factor * sign, bound):
                 return sign
         known = (*self.assumed, *self._positive(factor))
         return next((sign for sign in (1, -1) if follows(Bound(factor * sign), known)), 0)
@@ -244,7 +244,7 @@ class ParameterSigns(Struct, frozen=True):
                 yield Bound(ring.generator(g.index))
 
 
-def _is_more(value: Expr, bound: Bound) -> bool:
+def is_more(value: Expr, bound: Bound) -> bool:
     """Whether a value is an assumption times what is positive, and a rest that is."""
     times, rest = (Expr(value.ring, part) for part in divmod(value.poly, bound.value.poly))
     is_rest = is_positive(rest)

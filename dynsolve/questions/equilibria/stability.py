@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import StrEnum
 from fractions import Fraction
 from functools import partial
-from itertools import combinations, product
+from itertools import combinations, permutations, product
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -31,7 +31,7 @@ from dynsolve.algebra.inequality import Bound, independent
 from dynsolve.algebra.linear_systems import part, rank_parts
 from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.derivation.elimination import ParameterSigns, Turn, turn_of
+from dynsolve.derivation.elimination import ParameterSigns, Turn, is_more, turn_of
 from dynsolve.derivation.existence import DEGREES, Pose, conditions, rests, square_of
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, with_numbers
 from dynsolve.derivation.singular.zeros import Condition
@@ -290,6 +290,9 @@ def _falls(minor: Minor, rest: Sequence[int], signs: ParameterSigns) -> bool:
     """Whether the energy surely falls in some direction: one of two principal minors is negative."""
     minors = [signs.open_part(minor(chosen)) for chosen in _principal(rest)]
     if any(signs.is_positive(-one) for one in minors):
+        return True
+    signed = [one for one in minors if not one.is_zero]
+    if any(is_more(-one, Bound(other)) for one, other in permutations(signed, 2)):
         return True
     return any(signs.is_positive(-(one + other)) for one, other in combinations(minors, 2))
 
