@@ -151,6 +151,7 @@ def _remedy(character: str) -> str:
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _GROUP = re.compile(r"[A-Za-z]*[0-9]+|[A-Za-z]+")
 _LETTERS = re.compile(r"[A-Za-z]+")
+_THETA = re.compile(r"th(?![A-Za-z])")
 _INERTIA = re.compile(r"[IJ](?=[xyz]{2})")
 _WORD_LENGTH = 4
 _ASCII = SPELLED | {digit: str(value) for value, digit in enumerate(SUBSCRIPT_DIGITS)}
@@ -198,12 +199,14 @@ def _no_name(name: str) -> ReadError:
 def split(name: str) -> tuple[str, tuple[str, ...]]:
     """The base of a name and its groups of indices, as they are set on paper.
 
-    The base is a letter, a spelled-out Greek letter, or a word of four letters or
+    The base is a letter, a spelled-out Greek letter, th for theta, or a word of four letters or
     more.  A new group of indices begins at an underscore and at a letter after a digit.
 
-    >>> split("I1zz"), split("lc1"), split("theta1"), split("load")
+    >>> split("I1zz"), split("lc1"), split("th1"), split("load")
     (('I', ('1', 'zz')), ('l', ('c1',)), ('theta', ('1',)), ('load', ()))
     """
+    if _THETA.match(name):
+        name = name.replace("th", "theta", 1)
     base = _base(name)
     pieces = name[len(base) :].split("_")
     return base, tuple(group for piece in pieces for group in _GROUP.findall(piece))

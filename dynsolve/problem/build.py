@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.notation.characters import split
 from dynsolve.notation.text import has_decimals
 from dynsolve.problem.bodies import ParsedShape
 from dynsolve.problem.decoder import Record
@@ -40,6 +41,7 @@ def build_robot(
     """
     inputs = names.inputs(parsed.coordinates, parsed.spelled) if any(map(holds_forces, asked)) else ()
     references = tuple(reference(q.name) for q in parsed.coordinates) if "Yr" in asked else ()
+    _check_alike(faults, parsed)
     _check_references(faults, parsed, references)
     values = evaluate(faults, parsed, written, inputs, references)
     if values is None:
@@ -88,6 +90,17 @@ def build_robot(
     robot = with_questions(values, robot, parsed.questions, points, asked, parsed.normals is not None)
     robot = _with_candidates(values, parsed, robot)
     return None if faults.errors else robot
+
+
+def _check_alike(faults: Faults, parsed: ParsedFile) -> None:
+    """Report a name that is printed as another one is, l_1 beside l1."""
+    cells = sorted(parsed.cells, key=lambda cell: cell.start)
+    places = {name.name: cell.span_of(name) for cell in reversed(cells) for name in reversed(cell.names)}
+    met = {split(q.name): q.name for q in parsed.coordinates if q.name not in places}
+    for name in sorted(places, key=lambda name: places[name]):
+        other = met.setdefault(split(name), name)
+        if other != name:
+            faults.error(places[name], f"{name} is printed as {other} is", "give it another name")
 
 
 def _check_references(faults: Faults, parsed: ParsedFile, references: tuple[str, ...]) -> None:

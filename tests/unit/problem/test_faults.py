@@ -43,6 +43,16 @@ TABLE = {
         "a cylindrical joint takes two rows",
         "- {theta: q1*, d: 0, a: l, alpha: 90deg} and - {theta: 0, d: q2*, a: 0, alpha: 0}",
     ),
+    "two names that are printed alike": (
+        row("{theta: q1*, a: l1}\n  - {theta: q2*, a: «l_1»}"),
+        "l_1 is printed as l1 is",
+        "another name",
+    ),
+    "theta and th": (
+        row("{theta: theta1*, a: l}\n  - {theta: «th1»*, a: l}"),
+        "th1 is printed as",
+        "another",
+    ),
     "a star in a": (row("{theta: q1*, a: «l*»}"), "a of row 1 is constant", "theta (revolute) and d"),
     "a star in alpha": (row("{theta: q1*, alpha: «beta*»}"), "alpha of row 1 is constant", "beta"),
     "an angle and a length": (

@@ -38,7 +38,7 @@ FINDINGS = {
     "ambiguous-name dtheta2": body("mass: «dtheta2», link: 1"),
     "ambiguous-name thetadot1": body("mass: «thetadot1», link: 1"),
     "ambiguous-name q2": body("mass: «q2», link: 1"),
-    "similar-names": body("mass: m_2, link: 1").replace("m_2", "«m_2»"),
+    "similar-names": body("mass: lc1, link: 1, center: tip, inertia: {zz: «l_c_1»}"),
     "similar-names by case": body("mass: lc1, link: 1, center: tip, inertia: {zz: «Lc1»}"),
     "yaml-word": body("mass: «null», link: 1"),
     "unstarred slide": "dh:\n  - {theta: q1*}\n  - {d: «q2»}\n",
