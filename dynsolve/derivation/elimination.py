@@ -7,7 +7,7 @@ The signs of polynomials in parameters, which count as positive, under what is a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import product
 from math import hypot, prod
 from operator import mul
@@ -170,6 +170,11 @@ class ParameterSigns(Struct, frozen=True):
     def beside(self, *more: Bound, nonzero: Iterable[Expr] = ()) -> ParameterSigns:
         """The same where further inequalities hold, and further factors are not 0."""
         return ParameterSigns((*self.assumed, *more), (*self.nonzero, *nonzero))
+
+    def moved(self, there: Callable[[Expr], Expr]) -> ParameterSigns:
+        """The same in another ring."""
+        assumed = tuple(Bound(there(bound.value), bound.is_strict) for bound in self.assumed)
+        return ParameterSigns(assumed, tuple(map(there, self.nonzero)))
 
     def open_factors(self, value: Expr) -> Iterator[Expr]:
         """The irreducible factors of a value that may be 0, as far as is known; none where it is 0."""

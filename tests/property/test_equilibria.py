@@ -119,7 +119,8 @@ class Told:
         """Each point whose stability is told, with the equations of its case."""
         for one, points in zip(self.results["equilibria"], self.results["equilibria_stability"], strict=True):
             for point in points:
-                turns = [f"{name} = {angle}" for name, angle in point.items() if name in self.of.names]
+                turns = [f"{angle} = {at}" for angle, at in point.items() if not isinstance(at, list)]
+                turns.remove(f"stability = {point['stability']}")
                 yield point, [*one, *turns]
 
 
@@ -150,8 +151,10 @@ SPRINGS = [
     Mechanism("RR", ("a*sin(x)", "b*sin(x + y)", "c*(x + y)^2/2")),
     Mechanism("RR", ("a*sin(x)", "b*sin(x + y)", "c*(x + y - pi/2)^2/2")),
     Mechanism("RR", ("-a*cos(x)", "-b*cos(y)", "c*(x - y)^2/2")),
+    Mechanism("RR", ("-c*cos(x - y)",)),
+    Mechanism("RRR", ("-a*sin(x + y)", "b*cos(x + y)*cos(z)", "-c*cos(z)")),
 ]
-"""Springs at an angle, which therefore stands by itself, too."""
+"""Springs at an angle, which therefore stands by itself, too, and between two."""
 
 
 def drawn(draw: Random) -> dict[str, float]:

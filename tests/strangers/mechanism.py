@@ -285,9 +285,13 @@ class Mechanism:
         """The state in which coordinates are what equations say, q₂ = 90°."""
         here = self.point(seed=seed)
         told = [part for node in conditions for part in walk(node) if isinstance(part, tree.Relation)]
-        names = names_of(tuple(part.parts[0] for part in told))
-        pose = {q: float(self.value(r.parts[-1], here)) for q, r in zip(names, told, strict=True)}
-        return self.point(here.names | pose, seed)
+        for one in told:
+            *_, name = (q for q in self.coordinates if q in tree.names_in(one.parts[0]))
+            off = lambda p, one=one: float(self.value(one.parts[-1], p) - self.value(one.parts[0], p))  # noqa: E731
+            ahead = self.point(here.names | {name: here.names[name] + 1}, seed)
+            turn = off(here) / (off(here) - off(ahead))  # the left side is a sum of coordinates
+            here = self.point(here.names | {name: here.names[name] + turn}, seed)
+        return here
 
     def axis(self, joint: int, point: Point) -> Any:
         """The direction of a joint's axis, and a point on it."""

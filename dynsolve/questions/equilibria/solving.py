@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from fractions import Fraction
 from itertools import product
 from math import prod
 from typing import Any
@@ -38,13 +39,20 @@ from dynsolve.algebra.ring_values import ring_of
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.allowed import NOT_SHOWN
 from dynsolve.derivation.elimination import ParameterSigns
-from dynsolve.derivation.existence import conditions, is_seen, without_ends
+from dynsolve.derivation.existence import conditions, is_seen, quarter_turn, without_ends
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, lies_in
 from dynsolve.derivation.singular.zeros import Condition, never_together
+from dynsolve.errors import AlgebraError
 from dynsolve.questions.equilibria.multipliers import Multipliers, Settled, remainder
-from dynsolve.questions.equilibria.stability import MOST_SHOWN_TERMS, Curvature, Point
+from dynsolve.questions.equilibria.stability import (
+    MOST_SHOWN_TERMS,
+    Curvature,
+    Point,
+    by_coordinates,
+    quarter_turns,
+)
 from dynsolve.questions.parameters.derive import generators
 from dynsolve.robot.model import Robot
 
@@ -271,11 +279,14 @@ class _Search:
         for condition in (condition for one in exist for condition in one):
             self.special.add(condition.multiplier(second.entries))
         nonzero = (*self.special.factors, *self.of_rank.factors)
-        curvature = Curvature(second, self.signs.beside(nonzero=nonzero), may_be_held, self.held)
-        return tuple(
-            tuple(point for point in curvature.points(one, bounds) if not _is_told_of_more(point, one, exist))
-            for one, bounds in exist.items()
-        )
+        signs, found = self.signs.beside(nonzero=nonzero), []
+        for one, bounds in exist.items():
+            there = Transfer(ring, ring if self.held else _ring_of_sums(ring, one))
+            own, *cases = (tuple(Condition(there(c.expr)) for c in case) for case in (one, *exist))
+            curvature = Curvature(second.map(there), signs.moved(there), may_be_held, self.held)
+            points = curvature.points(own, [Bound(there(bound.value), bound.is_strict) for bound in bounds])
+            found.append(tuple(point for point in points if not _is_told_of_more(point, own, cases)))
+        return tuple(found)
 
     def _special_cases(self, factors: Iterable[Expr], settled: Settled | None) -> Iterator[SpecialCase]:
         """What is known where one of these factors is 0, and where one of the rank of A_c alone is."""
@@ -299,6 +310,27 @@ def _search_ring(ring: Ring, wanted: Sequence[Expr]) -> Ring:
             others.append(ring_of(found.coordinates, replace(found.plan, turning=tuple(turning))))
         found = min(others, key=lambda other: sum(len(one) for one in map(Transfer(ring, other), wanted)))
     return found
+
+
+def _ring_of_sums(ring: Ring, case: Alternative) -> Ring:
+    """The ring with each angle that a case has at quarter turns, as q₁ + q₂, in place of a coordinate."""
+    turning = [*ring.plan.turning]
+    for condition in case:
+        fixed = None if quarter_turns(condition) else quarter_turn(condition.expr)
+        if fixed is None:
+            continue
+        moving, rest = by_coordinates(fixed[0], ring.names)
+        vector = tuple(Fraction(dict(moving.terms).get(((name, 1),), 0)) for name in ring.names)
+        for place, (own, _) in reversed([*enumerate(turning)]):
+            (rate, other), *more = ((a, abs(b)) for a, b in zip(own, vector, strict=True) if a)
+            if not more and rate == other:
+                turning[place] = (vector, -rest)
+                break
+    found = ring_of(ring.coordinates, replace(ring.plan, turning=tuple(turning)))
+    with suppress(AlgebraError):  # it has not every part of an angle
+        if turning != [*ring.plan.turning] and all(found.sin(pair.angle).poly for pair in ring.pairs):
+            return found
+    return ring
 
 
 def _is_singular(inertia: Matrix, case: Alternative, free: Sequence[int]) -> bool:

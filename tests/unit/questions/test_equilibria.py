@@ -90,6 +90,14 @@ def test_where_a_tangent_is_known_the_sign_of_its_cosine_decides() -> None:
     assert points[1] == {"q2": "pi", "stability": "unstable"}
 
 
+def test_where_a_sum_of_angles_is_known_stability_is_told_at_its_quarter_turns() -> None:
+    """By hand: of k l² (1 - cos(a - b)) the angle between is held at 0 and falls from 180°."""
+    angles = "coordinates: {a: revolute, b: revolute}, D: [[1, 0], [0, 1]]"
+    model = f"gravity: none\nmodel: {{{angles}, P: '-k*l^2*cos(a - b)'}}\nfind: [equilibria]\n"
+    (points,) = dynsolve.solve(model).to_json()["results"]["equilibria_stability"]
+    assert points == [{"b - a": "0", "stability": "stable"}, {"b - a": "pi", "stability": "unstable"}]
+
+
 def test_the_check_finds_what_is_wrong() -> None:
     robot = read_problem(ARM).robot
     values = derive(robot)
