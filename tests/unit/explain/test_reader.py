@@ -242,7 +242,7 @@ MOTOR = ARM + "springs: [{stiffness: k, of: q2 - th}]\nmotors: [{turns: th*, ine
 )
 def test_the_angle_of_a_motor_is_no_angle_of_a_joint(gear: str, called: str) -> None:
     text = in_one_line(MOTOR % gear + "find: [Km]\n")
-    assert "q₁, q₂: joint angles: generalized coordinates" in text and f"t_h: {called}" in text
+    assert "q₁, q₂: joint angles: generalized coordinates" in text and f"θ: {called}" in text
     assert "Here q₁ and q₂ are angles (revolute joints)." in text
     assert "The rotor of t_h has the moment of inertia I_m" in text
     assert "half its moment of inertia, I_mi, times" in text and ("k_ri" in text) is bool(gear)
