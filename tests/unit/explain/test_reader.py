@@ -244,7 +244,7 @@ def test_the_angle_of_a_motor_is_no_angle_of_a_joint(gear: str, called: str) -> 
     text = in_one_line(MOTOR % gear + "find: [Km]\n")
     assert "q₁, q₂: joint angles: generalized coordinates" in text and f"θ: {called}" in text
     assert "Here q₁ and q₂ are angles (revolute joints)." in text
-    assert "The rotor of t_h has the moment of inertia I_m" in text
+    assert "The rotor of θ has the moment of inertia I_m" in text
     assert "half its moment of inertia, I_mi, times" in text and ("k_ri" in text) is bool(gear)
 
 
@@ -294,7 +294,7 @@ def test_what_holds_at_the_state_is_told_to_with_numbers_too() -> None:
 def test_only_a_motor_with_a_gear_is_behind_one() -> None:
     motors = "motors: [{turns: q1, inertia: I1, ratio: n}, {turns: th*, inertia: I2}]\n"
     text = in_one_line(ARM + motors + "find: [Km]\n")
-    assert "t_h: angle of a motor: generalized coordinate" in text
+    assert "θ: angle of a motor: generalized coordinate" in text
 
 
 FLOATING = """
