@@ -71,6 +71,7 @@ from dynsolve.notation.tree import (
     Transpose,
     Words,
     equation,
+    names_in,
     walk,
 )
 from dynsolve.notation.unicode import UnicodePrinter, width
@@ -100,9 +101,9 @@ def measured_steps(steps: Iterable[Step], robot: Robot, style: Style) -> Iterato
     if not robot.is_numeric:
         yield from steps
         return
-    known = _units(robot)
+    known, given = _units(robot), frozenset(robot.parameters)
     for step in steps:
-        yield _with_units(step, known, style)
+        yield _with_units(step, known, style, given)
 
 
 def _units(robot: Robot) -> dict[Node, str]:
@@ -127,13 +128,16 @@ def _units(robot: Robot) -> dict[Node, str]:
     return found
 
 
-def _with_units(step: Step, known: Mapping[Node, str], style: Style) -> Step:
-    """The step with units behind what goes in and what comes out: numbers, and matrices in one unit."""
+def _with_units(step: Step, known: Mapping[Node, str], style: Style, given: frozenset[str]) -> Step:
+    """The step with units behind what goes in and what comes out: numbers, and matrices in one unit.
+
+    What is `given` as a letter has its unit in itself.
+    """
     of_parts = known.get(letters.D, "") if step.id.startswith(_PARTS_OF_D) else ""
     of_center = units.si(units.LENGTH) if step.id.startswith("rc") else ""  # as it is given, in its link
 
     def measure(nodes: Iterable[Node], otherwise: str = "") -> tuple[Node, ...]:
-        return tuple(_measured(node, known, otherwise, style) for node in nodes)
+        return tuple(_measured(node, known, otherwise, style, given) for node in nodes)
 
     return replace(
         step,
@@ -143,15 +147,18 @@ def _with_units(step: Step, known: Mapping[Node, str], style: Style) -> Step:
     )
 
 
-def _measured(node: Node, known: Mapping[Node, str], otherwise: str, style: Style) -> Node:
+def _measured(
+    node: Node, known: Mapping[Node, str], otherwise: str, style: Style, given: frozenset[str]
+) -> Node:
     """An equation with the unit of its left side behind its right side; each of several side by side."""
     if isinstance(node, Row):
-        return replace(node, parts=tuple(_measured(part, known, otherwise, style) for part in node.parts))
+        parts = (_measured(part, known, otherwise, style, given) for part in node.parts)
+        return replace(node, parts=tuple(parts))
     if not isinstance(node, Relation):
         return node
     left, *_ = (*before, value) = node.parts
     unit = known.get(left.of if isinstance(left, Entry) else left, otherwise)
-    if not unit:
+    if not unit or not given.isdisjoint(names_in(value)):
         return node
     matrix = value.argument if isinstance(value, Transpose) else value
     if not isinstance(matrix, Matrix):
