@@ -104,7 +104,13 @@ def _bodies(
     has_tip = not modified or (link < len(rows) and rows[link].kind != "prismatic")
     mass = draw(st.sampled_from([f"m{place}", f"m{place}", "1.5", f"2*m{place}"]))
     parts = [f"mass: {mass}", f"link: {link}"]
-    centers = ["origin", f"[x{place}, 0, 0]", f"[x{place}, y{place}, z{place}]", "[0.1, -1/5, 0]"]
+    centers = [
+        "origin",
+        f"[x{place}, 0, 0]",
+        f"[x{place}, y{place}, z{place}]",
+        "[0.1, -1/5, 0]",
+        "[0, 0.1, 0]",
+    ]
     if has_tip:
         centers.append("tip")
     if fixed_near:

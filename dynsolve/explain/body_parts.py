@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
@@ -17,6 +18,7 @@ from dynsolve.explain.working.column_products import of_columns
 from dynsolve.explain.working.identities import (
     Identity,
     are_alike,
+    by,
     cancelled_in_product,
     said,
     used_in_product,
@@ -103,7 +105,7 @@ def _turns(context: Context, body: Body) -> bool:
 
 def _turned(context: Context, body: Body, step: Step) -> Step:
     """The step with the product of the rotational part."""
-    concluding = _by("Multiplied out", _angular_used(context, body))
+    concluding = by("Multiplied out", _angular_used(context, body))
     return replace(step, lines=tuple(_angular_lines(context, body)), concluding=concluding)
 
 
@@ -120,22 +122,24 @@ def _worked_out(context: Context, body: Body, step: Step, turns: bool) -> Step:
     if products is None:
         used = dict.fromkeys((*used_in_product(context, J.T, J, J.T @ J), *angular_used))
         cancelled = cancelled_in_product(context, J.T, J)
-        return replace(step, lines=angular, concluding=_by("Multiplied out", list(used), cancelled))
-    by: Prose = ("By ", *said(products.used))
-    by += (", and the numbers multiplied",) if body.mass.is_number else ()
+        return replace(step, lines=angular, concluding=by("Multiplied out", list(used), cancelled))
+    words: Prose = ("By ", *said(products.used))
+    words += (", and the numbers multiplied",) if _is_multiplied_in(context, body.mass, J.T @ J) else ()
     if turns:
         is_same = bool(angular_used) and set(angular_used) <= set(products.used)
-        second = ("multiplied out, with the same:",) if is_same else _by("multiplied out", angular_used)
-        by += ("; the second product ", *second)
+        second = ("multiplied out, with the same:",) if is_same else by("multiplied out", angular_used)
+        words += ("; the second product ", *second)
     if products.frame is not None:
         step = replace(step, working=(), uses=(f"H{products.frame}", f"Jv{body.name}#1"))
-    return replace(step, lines=(*products.lines, *angular), concluding=by if turns else (*by, ":"))
+    return replace(step, lines=(*products.lines, *angular), concluding=words if turns else (*words, ":"))
 
 
-def _by(operation: str, used: Sequence[Identity], cancelled: Prose = ()) -> Prose:
-    """Multiplied out, with s₁² + c₁² = 1 (the terms with s₁ c₁ cancel):"""
-    named = say(", with {used}", used=said(used)) if used else ()
-    return (operation, *named, *cancelled, ":")
+def _is_multiplied_in(context: Context, mass: Expr, product: Matrix) -> bool:
+    """Whether a mass is a number that does not stay in front of an entry: 0.5 l² is 0.5 times l²."""
+    pairs = [
+        (Product((context.show(mass), context.show(x))), context.show(mass * x)) for x in product.entries
+    ]
+    return mass.is_number and not all(are_alike(*pair) for pair in pairs)
 
 
 def sum_step(context: Context) -> Step | None:
@@ -178,7 +182,8 @@ def _summands(context: Context) -> list[str]:
 def _summed_entries(context: Context, parts: Sequence[str]) -> Iterator[Node]:
     """The entries of D as sums of what is added to them, and as they are read off; then those that are 0."""
     D, n = context.matrix("D"), context.robot.n
-    added = {(i, j): _added(context, parts, i, j) for i in range(n) for j in range(n)}
+    forms = [context.matrix(name).rows for name in parts]
+    added = {(i, j): [rows[i][j] for rows in forms if rows[i][j] != ZERO] for i in range(n) for j in range(n)}
     for (i, j), entries in added.items():
         if entries and i <= j:
             names = dict.fromkeys(letters.entry("d", r + 1, c + 1) for r, c in ((i, j), (j, i)))
@@ -187,12 +192,6 @@ def _summed_entries(context: Context, parts: Sequence[str]) -> Iterator[Node]:
     zero = [letters.entry("d", i + 1, j + 1) for (i, j), entries in added.items() if not entries]
     if zero:
         yield equation(*zero, ZERO)
-
-
-def _added(context: Context, parts: Sequence[str], i: int, j: int) -> list[Node]:
-    """What the parts of D that are not zero there add to an entry."""
-    entries = [context.matrix(name).rows[i][j] for name in parts]
-    return [entry for entry in entries if entry != ZERO]
 
 
 def linear_name(context: Context, body: Body) -> Node:

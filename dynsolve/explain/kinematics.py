@@ -76,6 +76,8 @@ def _table(context: Context) -> Step:
         stars = say(
             "The star only marks a joint variable, and may be left out. Here {kinds}.", kinds=_kinds(robot)
         )
+    lengths = (length for joint in robot.joints for length in (joint.d, joint.a))
+    has_units = any(length.is_number and not length.is_zero for length in lengths)
     return Step(
         id="dh",
         title="Denavit-Hartenberg table",
@@ -83,7 +85,7 @@ def _table(context: Context) -> Step:
             "{motions} {stars}{numbers}",
             motions=_four_motions(context),
             stars=stars,
-            numbers=" Lengths are in m." if any(map(_is_length, robot.joints)) else "",
+            numbers=" Lengths are in m." if has_units else "",
         ),
         source=context.by_convention("3.2", "3.4"),
         result=(equation(letters.Q, column(*(Symbol(q.name) for q in robot.coordinates))),),
@@ -117,11 +119,6 @@ def _four_motions(context: Context) -> Prose:
         x=x,
         z=z,
     )
-
-
-def _is_length(joint: Joint) -> bool:
-    """Whether a length of a row is a number with a unit."""
-    return any(length.is_number and not length.is_zero for length in (joint.d, joint.a))
 
 
 def _kinds(robot: Robot) -> Prose:

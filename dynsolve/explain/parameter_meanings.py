@@ -536,7 +536,8 @@ def told_together(of: Sequence[tuple[str, Meaning]]) -> Iterator[tuple[list[str]
         axes = {tuple(sorted(one.axes for one in own.values())) for own in of_number.values()}
         is_counted = counted is True and len(of_number) > 1 and len(axes) == 1
         for own in [dict(alike)] if len(axes) == 1 else of_number.values():
-            yield list(own), _over_all_axes(own.values()).text(is_counted)
+            over = sorted({axis for meaning in own.values() for axis in meaning.axes})
+            yield list(own), replace(next(iter(own.values())), axes=tuple(over)).text(is_counted)
 
 
 def _key(name: str, meaning: Meaning) -> tuple[str, object]:
@@ -545,12 +546,6 @@ def _key(name: str, meaning: Meaning) -> tuple[str, object]:
     if meaning.number and _has_number(name, meaning.number):
         return f"{meaning.share}{meaning.words} {axes}", True
     return f"{meaning.text()} {axes}", (meaning.link, meaning.body)
-
-
-def _over_all_axes(alike: Iterable[Meaning]) -> Meaning:
-    first, *others = alike
-    axes = {axis for meaning in (first, *others) for axis in meaning.axes}
-    return replace(first, axes=tuple(sorted(axes)))
 
 
 def _has_number(name: str, number: str) -> bool:

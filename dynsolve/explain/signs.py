@@ -86,16 +86,13 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
 
 def _with_free_shorthands(robot: Robot, style: Style) -> Style:
     """The style without the shorthands that look like a name of the problem: c_12 where that is a length."""
-    names = set(map(UnicodePrinter().text, _names(robot)))
+    own = (*robot.parameters, *(q.name for q in robot.coordinates))
+    names = {UnicodePrinter().text(Symbol(name)) for name in own}
     write = UnicodePrinter(style).text
     clashing = [node for node in shorthands(robot, style) if write(node) in names]
     given_up = {part.name for node in clashing for part in walk(node) if isinstance(part, Symbol)}
     kept = {name: index for name, index in style.shorthand.items() if name not in given_up}
     return replace(style, shorthand=kept)
-
-
-def _names(robot: Robot) -> list[Symbol]:
-    return [Symbol(name) for name in (*robot.parameters, *(q.name for q in robot.coordinates))]
 
 
 def shorthands(robot: Robot, style: Style) -> Iterator[Function]:

@@ -38,6 +38,7 @@ from dynsolve.explain.working.identities import (
     by,
     chain,
     identities,
+    opened_squares,
     proved,
     said,
 )
@@ -52,7 +53,6 @@ from dynsolve.notation.tree import (
     Node,
     Number,
     Parenthesized,
-    Power,
     Product,
     Sum,
     Symbol,
@@ -348,7 +348,7 @@ def summed(
     before = sum_of([form for form in map(context.form, parts) if form != ZERO])
     after = context.form(result)
     used = identities(context.robot.ring, before, after)
-    opened = _squares_of_sums(before) - _squares_of_sums(after)
+    opened = opened_squares(before, after)
     new_brackets = {each for each in brackets(after) - brackets(before) if not has_rates(each)}
     is_bracketed = bool(brackets(before) - brackets(after) and new_brackets)
     is_sorted = numbers_in(after) <= numbers_in(before) and not is_bracketed
@@ -359,7 +359,7 @@ def summed(
     if opened:
         operation = "The squares of sums multiplied out, and collected"
     if len(opened) == 1:
-        operation = say("The square {square} multiplied out, and collected", square=next(iter(opened)))
+        operation = say("The square {square} multiplied out, and collected", square=opened[0])
     way = chain(context, result, name, [((), before)], by(operation, used or ()))
     return replace(way, used=used or ())
 
@@ -367,8 +367,3 @@ def summed(
 def numbers_in(node: Node) -> set[Node]:
     """The numbers that stand in a tree."""
     return {part for part in walk(node) if isinstance(part, Number)}
-
-
-def _squares_of_sums(node: Node) -> set[Node]:
-    """The powers of sums that stand in a tree."""
-    return {part for part in walk(node) if isinstance(part, Power) and isinstance(part.base, Sum)}

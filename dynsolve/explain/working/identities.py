@@ -40,6 +40,7 @@ from dynsolve.notation.tree import (
     Transpose,
     equation,
     mapped,
+    walk,
 )
 from dynsolve.notation.unicode import to_unicode
 
@@ -286,13 +287,55 @@ def _ordered(node: Node) -> Node:
 SORTED = "Multiplied out, and sorted by the products of the rates:"
 
 
-COLLECTED = "Collected:"
+COLLECTED: Prose = ("Collected:",)
+NUMBERS: Prose = ("The numbers multiplied:",)
 
 
-def collected(before: Node, after: Node) -> str:
-    """What is done to a line that needs no identity: its sums of rates are multiplied out, if they go."""
-    opened = sums_of_rates(before) - sums_of_rates(after)
-    return "The sums of rates multiplied out, and collected:" if opened else COLLECTED
+def collected(ring: Ring, before: Node, after: Node) -> Prose:
+    """What leads from a line to an equal one: what is multiplied out, and the identities that are used.
+
+    Nothing where they are alike.
+    """
+    if are_alike(before, after):
+        return ()
+    squares, rates = opened_squares(before, after), sums_of_rates(before) - sums_of_rates(after)
+    opened = "The sums of rates" if rates else ""
+    if any(not sums_of_rates(square) for square in squares):
+        opened = "The square of the sum" if len(squares) == 1 else "The squares of the sums"
+    elif are_alike(mapped(before, _without_numbers), mapped(after, _without_numbers)):
+        return NUMBERS
+    used = identities(ring, before, after) or ()
+    if not opened:
+        return by("Collected", used)
+    return with_more(by(f"{opened} multiplied out", used), ", and collected:")
+
+
+def with_more(words: Prose, more: str) -> Prose:
+    """By s² + c² = 1, and collected:"""
+    *before, last = words
+    return (*before, str(last).removesuffix(":") + more)
+
+
+def _without_numbers(node: Node) -> Node:
+    """A product without the numbers among its factors."""
+    if not isinstance(node, Product):
+        return node
+    left = [each for each in node.factors if not all(isinstance(x, Number | Quotient) for x in walk(each))]
+    return left[0] if len(left) == 1 else Product(tuple(left))
+
+
+def opened_squares(before: Node, after: Node) -> list[Node]:
+    """The squares of sums in a tree that are not in the other."""
+    kept = squares_of_sums(after)
+    return [one for one in squares_of_sums(before) if not any(are_alike(one, other) for other in kept)]
+
+
+def squares_of_sums(node: Node) -> list[Node]:
+    """(a + b)², also of ((a + b) q̇)², ((a + b)/2)² and the like in a tree."""
+    powers = dict.fromkeys(part for part in walk(node) if isinstance(part, Power))
+    factors = [(power, factor) for power in powers for factor in factors_of(power.base)]
+    bare = [(each.numerator if isinstance(each, Quotient) else each, power) for power, each in factors]
+    return [Power(base, power.exponent) for base, power in bare if isinstance(base, Sum)]
 
 
 def chain(

@@ -98,7 +98,7 @@ def multiplied_out(context: Context, body: Body) -> tuple[Node, Way]:
         return whole, SILENT
     form, after = Product((letters.HALF, *front, sum_of(terms))), context.form(result)
     used = identities(context.robot.ring, form, after)
-    concluding = say("By {used}:", used=said(used)) if used else collected(form, after)
+    concluding = say("By {used}:", used=said(used)) if used else collected(context.robot.ring, form, after)
     return whole, chain(context, result, name, [("Multiplied out:", form)], concluding)
 
 

@@ -35,6 +35,7 @@ from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import (
     COLLECTED,
     IN_TURN,
+    NUMBERS,
     SILENT,
     SORTED,
     Tactic,
@@ -42,11 +43,15 @@ from dynsolve.explain.working.identities import (
     Words,
     are_alike,
     are_in_basic_angles,
+    by,
     chain,
     collected,
     identities,
+    opened_squares,
     product_line,
     said,
+    squares_of_sums,
+    with_more,
 )
 from dynsolve.explain.writing import block_of, listed, sum_of
 from dynsolve.notation import tree
@@ -62,7 +67,6 @@ from dynsolve.notation.tree import (
     Number,
     Power,
     Product,
-    Quotient,
     Sum,
     Symbol,
     Transpose,
@@ -174,13 +178,13 @@ def _as_shown(context: Context, body: Body) -> Prose:
     before, value = squared(context, body), context.values[f"v{body.name}"].entries
     bases = [each.base for each in walk(before) if isinstance(each, Power)]
     sums = (part for base in bases for part in walk(base) if isinstance(part, Sum))
-    if _squares_of_sums(before) or any(map(is_trigonometric, sums)):
+    if squares_of_sums(before) or any(map(is_trigonometric, sums)):
         return () if are_in_basic_angles(context, value) else _collected_at_once(context, body)
     after = context.form(f"Kv{body.name}")
     used = identities(context.robot.ring, before, after)
     if used is None or len(used) > 1 or not (used or any(map(has_roots, value))):
         return ()
-    return say("By {used}:", used=said(used)) if used else say(collected(before, after))
+    return say("By {used}:", used=said(used)) if used else collected(context.robot.ring, before, after)
 
 
 def _collected_at_once(context: Context, body: Body) -> Prose:
@@ -189,10 +193,7 @@ def _collected_at_once(context: Context, body: Body) -> Prose:
     used = identities(context.robot.ring, before, after)
     if used is None or IN_TURN in used or are_alike(before, after):
         return ()
-    by_name = sorted(used, key=lambda identity: bool(identity.name))
-    return say(
-        "Multiplied out{used}, and collected:", used=say(", with {used}", used=said(by_name)) if used else ""
-    )
+    return with_more(by("Multiplied out", used), ", and collected:")
 
 
 def _begun_along(context: Context, body: Body, i: int | None, way: Way) -> Way:
@@ -218,6 +219,7 @@ def along_axes(context: Context, body: Body) -> Iterator[tuple[int | None, Matri
 def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     """The squares of some components, and these by the products of the rates, which become the result."""
     ring, components = context.robot.ring, [x for x in velocity.entries if not x.is_zero]
+    form = context.form(f"Kv{body.name}")
     found = list(_by_rates(context, components))
     sorted_out = total([whole for _, whole, _ in found])
     has_many = isinstance(sorted_out, Sum)
@@ -226,19 +228,11 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
         tactics.insert(0, ("The squares of its entries:", _sum_of_squares(context, components)))
     used = [identities(ring, bracket, context.show(value)) or () for bracket, _, value in found]
     if not any(used):
-        return _chain(context, body, tactics, collected(sorted_out, context.form(f"Kv{body.name}")))
+        return _chain(context, body, tactics, collected(ring, _energy(context, body, sorted_out), form))
     each = dict.fromkeys(identity for some in used for identity in some)
-    by_name = sorted(each, key=lambda identity: bool(identity.name))
-    opened = _opened(sorted_out, context.form(f"Kv{body.name}"))
-    text = f"{'Multiplied out, with' if opened else 'With'} {{used}}{', and collected' * has_many}:"
-    return _chain(context, body, tactics, say(text, used=said(by_name)))
-
-
-def _squares_of_sums(node: Node) -> list[Node]:
-    """(a + b)², ((a + b)/2)² and the like in a tree."""
-    powers = [part for part in walk(node) if isinstance(part, Power)]
-    bases = [each.base.numerator if isinstance(each.base, Quotient) else each.base for each in powers]
-    return [power for power, base in zip(powers, bases, strict=True) if isinstance(base, Sum)]
+    opened = "Multiplied out, with" if opened_squares(sorted_out, form) else "With"
+    text = f"{opened} {{used}}{', and collected' * has_many}:"
+    return _chain(context, body, tactics, say(text, used=said(list(each))))
 
 
 def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[tuple[Node, Node, Expr]]:
@@ -286,18 +280,19 @@ def _from_components(
             return None
         tactics += multiplied
         before = tactics[-1][1] if tactics else _sum_of_squares(context, components)
-        last_words: str | Words = collected(before, form) if multiplied else _multiplied_out(before, form)
-        is_new = not are_alike(_energy(context, body, before, factor), form)
-        if multiplied and last_words == COLLECTED and is_new:
+        last_words: Prose | Words = collected(ring, _energy(context, body, before, factor), form)
+        if multiplied and last_words == COLLECTED:
             words, _ = tactics.pop()
             assert isinstance(words, Words)
-            last_words = Words(*(_and_collected(each) for each in (words.by, words.joined)))
+            last_words = Words(*(with_more(each, ", and collected:") for each in (words.by, words.joined)))
         return _chain(context, body, tactics, last_words, factor)
     concluding: str | Prose | Words = ()
     if tactics:
         words, last = tactics[-1]
-        if len(brackets(form)) > len(brackets(_energy(context, body, last, factor))):  # d₃² of two squares
-            concluding = "Collected:"
+        energy = _energy(context, body, last, factor)
+        is_bracketed = len(brackets(form)) > len(brackets(energy))  # d₃² of two squares
+        if is_bracketed or identities(ring, energy, form):
+            concluding = collected(ring, energy, form)
         else:
             concluding = words
             tactics.pop()
@@ -312,10 +307,11 @@ def _chain(
     factor: Shared | None = None,
 ) -> Way:
     """The lines, each of them squares, as energies."""
-    if concluding and body.mass.is_number:
+    front = factors_of(context.form(f"Kv{body.name}"))[:2]
+    is_kept = front == (letters.HALF, context.show(body.mass))
+    if concluding and concluding != NUMBERS and body.mass.is_number and not is_kept:
         said_before = concluding.by if isinstance(concluding, Words) else say("{words}", words=concluding)
-        *words, last = said_before
-        concluding = (*words, f"{str(last).removesuffix(':')}; the numbers multiplied:")
+        concluding = with_more(said_before, "; the numbers multiplied:")
     lines = [(words, _energy(context, body, added, factor)) for words, added in tactics]
     return chain(context, f"Kv{body.name}", letters.energy_part("v", body), lines, concluding)
 
@@ -405,25 +401,6 @@ def _multiplied(context: Context, components: Sequence[Expr], form: Node) -> lis
     if any(not (has_rates(each) or is_trigonometric(each)) for each in kept):
         return [(Words(at_once, at_once), reduced)]
     return [(by, multiplied), (Words(say("By {used}:", used=said(used)), at_once), reduced)]
-
-
-def _and_collected(words: Prose) -> Prose:
-    """By s² + c² = 1, and collected:"""
-    *before, last = words
-    return (*before, f"{str(last).removesuffix(':')}, and collected:")
-
-
-def _multiplied_out(before: Node, after: Node) -> str:
-    """What leads from squares to the result where no identity is used."""
-    opened = _opened(before, after)
-    which = "The square of the sum" if len(opened) == 1 else "The squares of the sums"
-    return f"{which} multiplied out, and collected:" if opened else collected(before, after)
-
-
-def _opened(before: Node, after: Node) -> list[Node]:
-    """The squares of sums in a tree that are not in the other."""
-    kept = _squares_of_sums(after)
-    return [one for one in _squares_of_sums(before) if not any(are_alike(one, other) for other in kept)]
 
 
 def _cancelled(context: Context, components: Sequence[Expr], total: fmpq_mpoly) -> Iterator[Node]:

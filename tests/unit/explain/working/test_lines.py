@@ -11,6 +11,7 @@ import dynsolve
 from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.working.identities import are_alike, identities
 from dynsolve.notation.tree import Cross, Relation
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
@@ -61,10 +62,33 @@ def test_every_line_is_true(problem: str) -> None:
     assert_true(solved(problem))
 
 
+def assert_named(solution: dynsolve.Solution) -> None:
+    """Identities that lead from one line of an energy to the next are named, and none leads to itself."""
+    ring = solution.robot.ring
+    for each in solution.steps:
+        if not each.id.startswith("K") or not each.result:
+            continue
+        equations = [*each.working[-1:], *(line.formulas[-1] for line in each.lines), each.result[0]]
+        words = [*(line.by for line in each.lines), each.concluding][-len(equations) + 1 :]
+        for before, after, by in zip(equations, equations[1:], words, strict=False):
+            assert isinstance(before, Relation) and isinstance(after, Relation)
+            pair = (before.parts[-1], after.parts[-1])
+            is_told = any(isinstance(part, Relation) for part in by) or "identities" in str(by)
+            assert not by or is_told or not identities(ring, *pair), (each.id, by, pair)
+            assert not by or not are_alike(*pair), (each.id, by)
+
+
 @settings(max_examples=5, deadline=None)
 @given(robots(max_joints=3))
-def test_every_line_of_any_robot_is_true(problem: str) -> None:
-    assert_true(dynsolve.solve(problem))
+def test_every_line_of_any_robot_is_true_and_its_identities_are_named(problem: str) -> None:
+    solution = dynsolve.solve(problem)
+    assert_true(solution)
+    assert_named(solution)
+
+
+@pytest.mark.parametrize("problem", FAMILIAR)
+def test_every_identity_is_named(problem: str) -> None:
+    assert_named(solved(problem))
 
 
 def test_squares_of_absolute_angles_by_the_cosine_of_a_difference() -> None:

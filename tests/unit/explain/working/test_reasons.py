@@ -63,6 +63,24 @@ dh: [{d: x*}, {theta: t*, alpha: 45deg}]
 masses: [{mass: m, link: 2, center: [c, 0, 0]}]
 """
 
+PENDULUM = """
+gravity: none
+dh: [{theta: q1*, a: l}]
+masses: [{mass: 0.5, link: 1, center: tip}]
+"""
+
+TWO_SLIDES = """
+gravity: none
+dh: [{d: x*}, {d: y*}]
+masses: [{mass: MASS, link: 1, center: origin}, {mass: MASS, link: 2, center: origin}]
+"""
+
+BESIDE_THE_ARM = """
+gravity: none
+dh: [{theta: q1*, a: l, alpha: 90deg}, {theta: q2*, a: 0.3}]
+masses: [{mass: m, link: 2, center: [0, 0.1, 0]}]
+"""
+
 
 def normal(problem: str) -> str:
     """A worked example without its breaks of lines."""
@@ -121,3 +139,19 @@ def test_a_lever_along_the_axis_is_seen_to_give_nothing() -> None:
 def test_a_point_less_itself_is_not_told() -> None:
     page = normal(MODIFIED)
     assert "𝐨₂ - 𝐨₂)" in page and "𝐨₂ - 𝐨₂ = 𝟎" not in page
+
+
+def test_numbers_are_multiplied_where_they_do_not_stay() -> None:
+    assert lines(PENDULUM, "Kv1") == ["By s₁² + c₁² = 1:"], "½·0.5 l² q̇₁²"
+    assert lines(TWO_SLIDES.replace("MASS", "2"), "Kv2") == ["The numbers multiplied:"], "½·2(ẋ + ẏ)²"
+
+
+def test_what_is_shown_as_it_is_printed_is_not_collected() -> None:
+    assert lines(TWO_SLIDES.replace("MASS", "m"), "Kv2") == []
+
+
+def test_the_square_of_a_sum_of_decimals_names_its_identities() -> None:
+    assert lines(BESIDE_THE_ARM, "Kv1")[-1] == (
+        "The square of the sum multiplied out, with s₂² + c₂² = 1, the cosine of twice an angle, "
+        "c₂² - s₂² = cos(2q₂) and the sine of twice an angle, 2s₂ c₂ = sin(2q₂), and collected:"
+    )
