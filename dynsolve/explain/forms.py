@@ -82,7 +82,8 @@ class Forms:
     @cached_property
     def compactor(self) -> Compactor:
         """The compactor of this robot's ring."""
-        return Compactor(self.robot.ring, *self.collecting, decimal=self._decimal)
+        typed = self.robot.decimals
+        return Compactor(self.robot.ring, *self.collecting, decimal=self._decimal, typed=typed)
 
     @property
     def collecting(self) -> tuple[list[str], list[frozenset[str]]]:

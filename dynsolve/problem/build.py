@@ -7,14 +7,16 @@ which axes.  What is wrong is reported at its place; nothing is built of it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from fractions import Fraction
 
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.notation import text
 from dynsolve.notation.characters import split
-from dynsolve.notation.text import has_decimals
+from dynsolve.notation.tree import Number, walk
 from dynsolve.problem.bodies import ParsedShape
+from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Record
 from dynsolve.problem.parsed import ParsedFile, evaluate
 from dynsolve.problem.questions import named_point, with_questions
@@ -27,9 +29,6 @@ from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.questions import reference
 from dynsolve.robot.shapes import AXES, KINDS, Density, Shape
-
-if TYPE_CHECKING:
-    pass
 
 
 def build_robot(
@@ -81,8 +80,9 @@ def build_robot(
         parameters=tuple(name for name in ring.parameters if name not in ("pi", *inputs)),
         inputs=inputs,
     )
-    numbers = (cell.text for cell in parsed.cells if robot.is_numeric or not cell.names)
-    robot = replace(robot, has_decimals=any(map(has_decimals, numbers)))
+    decimals = frozenset[Fraction]().union(*map(_decimals, parsed.cells))
+    has_decimals = any(_has_decimals(cell, robot) for cell in parsed.cells)
+    robot = replace(robot, has_decimals=has_decimals, decimals=decimals)
     if parsed.acting is not None:
         from dynsolve.problem.acting import actions
 
@@ -90,6 +90,19 @@ def build_robot(
     robot = with_questions(values, robot, parsed.questions, points, asked, parsed.normals is not None)
     robot = _with_candidates(values, parsed, robot)
     return None if faults.errors else robot
+
+
+def _has_decimals(cell: Cell, robot: Robot) -> bool:
+    """Whether a number of a cell is a decimal; a half or a quarter of a letter is a fraction, too: 0.5 l."""
+    if robot.is_numeric or not cell.names:
+        return text.has_decimals(cell.text)
+    return any(number.denominator % 5 == 0 for number in _decimals(cell))
+
+
+def _decimals(cell: Cell) -> frozenset[Fraction]:
+    """The decimals of a cell that are not whole."""
+    numbers = (node for node in walk(cell.tree) if isinstance(node, Number))
+    return frozenset(Fraction(node.p, node.q) for node in numbers if node.q != 1)
 
 
 def _check_alike(faults: Faults, parsed: ParsedFile) -> None:

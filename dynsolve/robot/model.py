@@ -361,7 +361,8 @@ class Robot(Struct, frozen=True):
     of the generalized forces, one a coordinate, where results hold them.  `questions` are
     what the exercise asks around this model, `actions` what acts beside gravity.  Without joints the
     bodies are given by their positions, or `given` stands in their place.  `has_decimals` says that numbers
-    were written as 0.5, and not as 1/2; where masses are letters, numbers that stand alone, not 0.5 of 0.5 l.
+    were written as 0.3, and not as 3/10; where masses are letters, a half of a letter is none: 0.5 l.
+    `decimals` are the numbers with decimals as they were written.
     """
 
     ring: Ring
@@ -379,6 +380,7 @@ class Robot(Struct, frozen=True):
     given: GivenModel | None = None
     base_turns: AxisTurns = ()
     has_decimals: bool = False
+    decimals: frozenset[Fraction] = frozenset()
 
     @property
     def has_table(self) -> bool:

@@ -24,6 +24,8 @@ def misspelled(forms: Iterable[Node]) -> Iterator[tuple[str, Node]]:
             case tree.Product() | tree.Quotient():
                 if _keeps_fractions(node):
                     yield "a number before a sum that keeps fractions", node
+                if _is_drawn_out(node):
+                    yield "a decimal drawn out of a sum", node
                 if isinstance(node, tree.Product) and any(map(_is_misplaced, node.factors, node.factors[1:])):
                     yield "a number behind a factor", node
                 for factor in _factors(node):
@@ -54,6 +56,23 @@ def _keeps_fractions(node: Node) -> bool:
     sums = [factor for factor in _factors(node) if isinstance(factor, tree.Sum)]
     below = [{_number(term).denominator for term in each.terms} - {1} for each in sums]
     return any(each and (front != 2 or each == {2}) for each in below)
+
+
+def _is_drawn_out(node: Node) -> bool:
+    """Whether a decimal stands before a sum that has whole numbers by that, 0.5 (3 + m) or k (20r - 7)/40.
+
+    Rates may be told together, 0.4 (2q̇₁ q̇₂ + q̇₂²).
+    """
+    if _number(node).denominator % 5 and not any(isinstance(n, Number) and n.decimal for n in walk(node)):
+        return False
+    for factor in _factors(node):
+        base = factor.base if isinstance(factor, tree.Power) else factor
+        if isinstance(base, tree.Sum) and _number(node).denominator != 1:
+            sizes = {abs(_number(term)) for term in base.terms}
+            whole = all(size.denominator == 1 for size in sizes)
+            if whole and sizes - ({1, 2} if all(map(_turns_or_moves, base.terms)) else {1}):
+                return True
+    return False
 
 
 def _number(node: Node) -> Fraction:

@@ -46,6 +46,17 @@ OWN = {
     + "dh: [{theta: q1*, a: 0.5}, {theta: q2*, a: 0.25}]\nmasses:\n"
     + "  - {mass: m1, link: 1, center: midpoint, shape: {rod: {length: 0.5}}}\n"
     + "  - {mass: m2, link: 2, center: midpoint, shape: {cylinder: {radius: 0.05, length: 0.25}}}\n",
+    "decimals beside letters": PLANE + "dh: [{theta: q1*, a: l}]\n"
+    "masses: [{mass: m, link: 1, center: midpoint}, {mass: 1.5, link: 1}]\n",
+    "decimals of a slide": "gravity: none\n"
+    "dh: [{d: x*, alpha: -90deg}, {theta: q*, a: 0.1, alpha: 90deg}, {d: s*}]\n"
+    "masses: [{mass: m, link: 3, center: origin}]\nsprings: [{energy: 0.15*k*(x - 0.35)^4}]\n",
+    "decimals of a model": "model:\n"
+    "  coordinates: {r: prismatic, x: prismatic}\n  K: m*r'^2/2 + M*x'^2/2\n"
+    "  P: 0.25*k*(r - 0.35)^2 + m*9.81*x + 0.15*c*x^2\n",
+    "decimals of three joints": "gravity: none\n"
+    "dh: [{theta: q1*, a: 0.35}, {theta: q2*, a: 0.3, alpha: 90deg}, {theta: q3*, a: 0.15}]\n"
+    "masses: [{mass: 1.1, link: 3}]\n",
     "angles of 30°": PLANE
     + "dh: [{theta: q1*, a: l1}, {theta: 30deg, d: d2*, alpha: 60deg}, {theta: q3*, a: l3}]\nmasses:\n"
     + "  - {mass: 2*m, link: 2, shape: point}\n"

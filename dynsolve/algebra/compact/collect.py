@@ -13,7 +13,7 @@ The factor that all entries of a matrix share: (1/12) m l² in front of the tens
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from fractions import Fraction
 
 from dynsolve.algebra.compact.atoms import AtomPlace, AtomTable, Rank
@@ -33,7 +33,7 @@ from dynsolve.algebra.compact.terms import (
     rational_root,
     whole_content,
 )
-from dynsolve.notation.build import cost, number_in_front, split_sign, times, total
+from dynsolve.notation.build import cost, number_in_front, split_sign, summands, times, total
 from dynsolve.notation.tree import (
     ONE,
     ZERO,
@@ -72,9 +72,10 @@ class Collector:
     A sum is written once and remembered: PUMA 560 would take half as long again without.
     """
 
-    def __init__(self, atoms: AtomTable, *, decimal: bool = False) -> None:
+    def __init__(self, atoms: AtomTable, *, decimal: bool = False, typed: Collection[Rational] = ()) -> None:
         self.atoms = atoms
         self.decimal = decimal
+        self._typed = typed
         self._known: dict[frozenset[tuple[Monomial, Rational]], Node] = {}
         self._costs: dict[int, tuple[Node, int]] = {}
         self._fractions: dict[int, Polynomial] = {}
@@ -99,8 +100,8 @@ class Collector:
     def factored(self, poly: Polynomial) -> Node:
         """The collected tree of a polynomial, or the product of sums that it is, where that is shorter."""
         plain = self.form(poly)
-        factors = factors_of(poly) if len(poly) >= SMALLEST_PRODUCT and not self.decimal else ()
-        if not factors:
+        factors = factors_of(poly) if len(poly) >= SMALLEST_PRODUCT else ()
+        if not factors or (self.decimal and not all(self._is_legible(part) for part, _ in factors)):
             return plain
         factor: Rational = 1
         mono: Monomial = ()
@@ -116,16 +117,42 @@ class Collector:
             ((mono, factor),) = poly.items()
             return factor, mono
         shared = whole_content(poly.values())
-        if self.decimal and any(abs(Fraction(f) / shared) > SMALL_WHOLE for f in poly.values()):
-            shared = self.content(poly.values())  # 0.34 and 0.457 are no whole numbers that anyone reads
+        if self.decimal and not self._is_of_rates(poly, shared):
+            shared = self.content(poly.values())  # 1.5 + 0.5 m, and not 0.5 (3 + m)
         if self.mostly_negative(poly):
             shared = -shared
         factor, mono = self.decompose(self.form({mono: exact(f, shared) for mono, f in poly.items()}))
         return factor * shared, mono
 
+    def _typed_in(self, poly: Polynomial) -> Rational | None:
+        """The decimal to draw out of a length so that its own ones were typed: 250 k (r - 0.4)."""
+        shared = common(poly) if self._typed else ()
+        if not self._typed or not all(self._is_length(divide(mono, shared)) for mono in poly):
+            return None
+        sizes: list[Rational] = [f if f > 0 else -f for f in poly.values()]
+        for size in sizes:
+            rest = {exact(other, size) for other in sizes} - {1}
+            if rest and all(number in self._typed for number in rest):
+                return size
+        return None
+
+    def _is_legible(self, poly: Polynomial) -> bool:
+        """Whether decimals of a sum are drawn out of it: 20x - 7 of a typed x - 0.35, and not 7x - 20."""
+        return self._typed_in(poly) is not None or len({abs(f) for f in poly.values()}) == 1
+
+    def _is_length(self, mono: Monomial) -> bool:
+        """Whether a monomial is a length, a coordinate or 1."""
+        ranks = [self.atoms.ranks[atom][0] for atom, _ in mono]
+        return not mono or (mono[0][1] == 1 and ranks in ([Rank.PARAMETER], [Rank.COORDINATE]))
+
+    def _is_of_rates(self, poly: Polynomial, number: Rational) -> bool:
+        """Whether a polynomial is the number times rates and twice rates: 2q̇₁ q̇₂ + q̇₂²."""
+        whole = all(abs(f) in (number, 2 * number) for f in poly.values())
+        return whole and all(self.atoms.ranks[atom][0] >= Rank.RATE for mono in poly for atom, _ in mono)
+
     def primitive(self, poly: Polynomial) -> tuple[Rational, Monomial, Polynomial]:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
-        factor = self.content(poly.values())
+        factor = self._typed_in(poly) or self.content(poly.values())
         if factor.denominator != 1 and self._of_several_bodies(poly):
             factor = 1
         mono = self._worth_drawing(poly, common(poly))
@@ -460,7 +487,16 @@ class Collector:
         x, y, ratio = found
         if self.atoms.ranks[y][0] is Rank.COORDINATE is not self.atoms.ranks[x][0] and ratio < 0:
             x, y, ratio = y, x, exact(1, ratio)
-        return join(poly, x, y, self.atoms.number(self._sum_node(x, y, ratio)))
+        node = self._sum_node(x, y, ratio)
+        terms = {mono: f for f, mono in map(self.decompose, summands(node))}
+        size = self._typed_in(terms) or 1
+        if size != 1:  # θ - 20z is -20(z - 0.05 θ)
+            node = total([self.product(exact(f, size), mono, ()) for mono, f in self.ordered(terms)])
+        whole = self.atoms.number(node)
+        return {
+            mono: exact(f * size ** dict(mono).get(whole, 0), 1)
+            for mono, f in join(poly, x, y, whole).items()
+        }
 
     def _sum_node(self, x: int, y: int, ratio: Rational) -> Node:
         """x + ratio·y as a tree, flat and in order; a difference starts with x."""

@@ -9,7 +9,7 @@ inside, masses outside or inside), the result with fewer operations is taken.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
 
@@ -59,7 +59,8 @@ class Compactor:
 
     `leading` names the masses and moments of inertia in the order in which a sum
     mentions them; `parallel` are groups of coordinates that turn about parallel axes;
-    `decimal` says that numbers are decimals, which are not drawn out of sums;
+    `decimal` says that numbers are decimals, which are not drawn out of sums, unless that leaves those
+    that were `typed`;
     `angles_outside` that masses are never collected outside sines and cosines; from `large` terms
     on one way of collecting is tried and not two.
 
@@ -80,13 +81,14 @@ class Compactor:
         parallel: Iterable[Iterable[str]] = (),
         *,
         decimal: bool = False,
+        typed: Collection[Rational] = (),
         angles_outside: bool = False,
         large: int = LARGE,
     ) -> None:
         self.ring = ring
         self._groups = angle_groups(ring, parallel)
         self._atoms = RingAtoms(ring, leading, self._groups, self.form)
-        self.collector = Collector(self._atoms.table, decimal=decimal)
+        self.collector = Collector(self._atoms.table, decimal=decimal, typed=typed)
         self._proof = Proof(ring)
         self._angles_outside = angles_outside
         self._large = large
@@ -185,13 +187,29 @@ class Compactor:
                     numbers.append((number, mono, tree.ONE))
                     continue
             key, scale = primitive(part)
-            first: Rational = scale
-            if self.collector.decimal and len(part) == 1:  # 1.3 g and 3 g: g (1.3 s₁ + 3 s₁₂)
-                part, first = {e: exact(f, scale) for e, f in part.items()}, 1
-            _, own, factors = shared.setdefault(key, (part, first, {}))
+            _, own, factors = shared.setdefault(key, (part, scale, {}))
             factors[mono] = exact(scale, own)
-        sums = ((*self.collector.whole(factors), form(part)) for part, _, factors in shared.values())
+        sums = (self._one_product(part, factors, form) for part, _, factors in shared.values())
         return [*numbers, *sums]
+
+    def _one_product(
+        self, part: Terms, factors: Polynomial, form: Callable[[Terms], Node]
+    ) -> tuple[Rational, Monomial, Node]:
+        """(factor, monomial, form) of part · Σ factors, with no decimal in front of two sums.
+
+        1.3 g and 3 g are g (1.3 s₁ + 3 s₁₂), and 0.5 (0.4 a + 0.6 b)(2q̇₁ q̇₂ + q̇₂²) has 0.2 a + 0.3 b.
+        """
+        node = form(part)
+        if not self.collector.decimal:
+            return *self.collector.whole(factors), node
+        alike, _ = self.collector.decompose(node)
+        if alike != 1:
+            factors = {mono: exact(f * alike, 1) for mono, f in factors.items()}
+            part = {e: exact(f, alike) for e, f in part.items()}
+        number, mono = self.collector.whole(factors)
+        if abs(number) != 1 and len(part) > 1:
+            part, number = {e: exact(f * number, 1) for e, f in part.items()}, 1
+        return number, mono, form(part)
 
     # -- coefficients: no velocities ---------------------------------------------------------------
 

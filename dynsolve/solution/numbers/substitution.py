@@ -176,6 +176,7 @@ def robot_with(robot: Robot, values: Replacements, more: Iterable[Node] = ()) ->
         actions=_with_values(robot.actions, put),
         given=_with_values(robot.given, put),
         has_decimals=robot.has_decimals,
+        decimals=robot.decimals,
     )
 
 

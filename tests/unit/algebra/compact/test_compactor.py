@@ -338,3 +338,20 @@ def test_constant_forms_are_the_same_number(degrees: int, powers: dict[int, int]
     number = sum(f * math.cos(delta) ** k for k, f in powers.items())
     for form in write({(k,): f for k, f in powers.items()}):
         assert value(form, delta) == pytest.approx(number, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("spring", "force"),
+    [
+        ("{stiffness: 250, of: z, rest: 0.4}", "250(z - 0.4)"),
+        ("{stiffness: k, of: z - 0.05*y, rest: z0}", "-k (z₀ - z + 0.05 y)"),
+        ("{stiffness: k, of: y - 0.3*z}", "0.3 k (0.3 z - y)"),
+        ("{energy: 0.15*k*(z - 0.35)^4}", "0.6 k (z - 0.35)³"),
+        ("{energy: 0.15*k*(z - l)^2}", "0.3 k (z - l)"),
+    ],
+)
+def test_a_decimal_is_drawn_out_of_a_length_where_that_leaves_what_was_typed(spring: str, force: str) -> None:
+    slides = "gravity: none\ndh: [{d: z*}, {d: y*}]\nmasses: [{mass: m, link: 1}, {mass: 1.5, link: 2}]\n"
+    problem = read_problem(f"{slides}springs: [{spring}]\n")
+    g = Forms(problem.robot, derive(problem.robot))("g")
+    assert isinstance(g, Matrix) and to_unicode(g.rows[0][0]) == force
