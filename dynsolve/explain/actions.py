@@ -105,6 +105,11 @@ def rotor_steps(context: Context) -> Iterator[Step]:
     turned = formula("k_r_i q̇_k" if geared else "q̇_k")
     if carried:
         turned = Sum((turned, Product((Transpose(letters.bold("z")), letters.bold("omega", Words("link"))))))
+    turns = [(motor, *_turned(context, motor)) for motor in motors]
+    energies = [
+        half_square(context.show(motor.inertia), total([spin, context.show(with_link)]))
+        for motor, spin, with_link in turns
+    ]
     is_sum = geared or carried
     energy = formula("½ I_m_i ({turned})²" if is_sum else "½ I_m_i {turned}²", turned=turned)
     yield Step(
@@ -120,7 +125,7 @@ def rotor_steps(context: Context) -> Iterator[Step]:
         ),
         formula=equation(letters.KM, counted_sum(energy, letters.COUNT, len(motors)) if several else energy),
         source=siciliano("7.1.1"),
-        working=(equation(letters.KM, sum_of([_energy(context, motor) for motor in motors])),),
+        working=(equation(letters.KM, sum_of(energies)),),
         result=(equation(letters.KM, context.form("Km")),),
         notes=tuple(_carriers(context)),
         normal=NOTED,
@@ -138,20 +143,21 @@ def _turned(context: Context, rotor: Rotor) -> tuple[Node, Expr]:
     return times(1, [(context.show(rotor.ratio), 1), (rate, 1)]), carried
 
 
-def _energy(context: Context, rotor: Rotor) -> Node:
-    spin, carried = _turned(context, rotor)
-    return half_square(context.show(rotor.inertia), total([spin, context.show(carried)]))
+def rotor_named(robot: Robot, rotor: Rotor) -> Prose:
+    """The rotor that drives q₂, or that of an angle that is its own."""
+    q = robot.coordinates[rotor.turns]
+    return (f"The rotor {'of' if robot.is_of_motor(q) else 'that drives'} ", Symbol(q.name))
 
 
 def _carriers(context: Context) -> Iterator[Prose]:
     """What link a rotor rides on, and what that turns it with."""
-    for place, motor in enumerate(context.robot.actions.rotors, 1):
+    for motor in context.robot.actions.rotors:
         if motor.carrier:
             axis = letters.bold(AXES[motor.axis], Number(motor.carrier))
             link = letters.bold("omega", Row((Words("link"), Number(motor.carrier))))
             yield say(
-                "Motor {place} rides on link {link} and spins about {axis}: ${axis}ᵀ {omega} = {carried}$.",
-                place=place,
+                "{rotor} rides on link {link} and spins about {axis}: ${axis}ᵀ {omega} = {carried}$.",
+                rotor=rotor_named(context.robot, motor),
                 link=motor.carrier,
                 axis=axis,
                 omega=link,

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from msgspec.structs import asdict, replace
 
 from dynsolve.algebra.angles import name_alone
+from dynsolve.derivation.kinematics import joint_frame
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import acting_steps, potential_steps
@@ -187,9 +188,9 @@ def _read_off(context: Context, body: Body) -> Prose:
     joint = _joint_read_off(context, body)
     told = told_read_off(context)
     earlier = context.robot.bodies[: context.robot.bodies.index(body)]
-    if joint is None or (told and told[1] == joint):
-        return ()
-    if any(_joint_read_off(context, other) == joint for other in earlier):
+    known = [told[1] if told else None, *(_joint_read_off(context, other) for other in earlier)]
+    frames = {joint_frame(context.robot, each) for each in known if each}
+    if joint is None or joint_frame(context.robot, joint) in frames:
         return ()
     return say(" {how}.", how=how_read_off(context, joint))
 

@@ -219,7 +219,9 @@ class Forms:
             case families.CQD:
                 return tree.column(*map(formulas.coriolis_force, range(self.robot.n)))
             case families.I:
-                return self._base_inertia(self.robot.bodies[index].name)
+                body = self.robot.bodies[index].name
+                R, tensor = self.matrix(f"R{body}").rows, self.matrix(f"I_body{body}")
+                return tree.Matrix(tuple(tuple(_sandwich(left, tensor, right) for right in R) for left in R))
             case families.K_BODY:
                 body = self.robot.bodies[index].name
                 return total([self(f"Kv{body}"), self(f"Kw{body}")])
@@ -250,11 +252,6 @@ class Forms:
         form = self(name)
         assert isinstance(form, tree.Matrix)
         return form
-
-    def _base_inertia(self, body: str) -> Node:
-        """Σ_kl R_ik I_kl R_jl with the entries of R as they are printed."""
-        R, tensor = self.matrix(f"R{body}").rows, self.matrix(f"I_body{body}")
-        return tree.Matrix(tuple(tuple(_sandwich(left, tensor, right) for right in R) for left in R))
 
 
 def _without_minus(node: Node) -> Node:

@@ -12,7 +12,7 @@ By the rates, so that it is true of every robot (Spong, Hutchinson, Vidyasagar, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from enum import StrEnum
 
 from msgspec import Struct
@@ -147,7 +147,9 @@ def terms_step(context: Context) -> Iterator[Step]:
     held = frozenset({Kind.GRAVITY, Kind.SPRING, Kind.HELD})
     told = kinds - held | {Kind.HELD} if len(held & kinds) > 1 else kinds  # both at once
     holds = "the joint" if robot.has_table else "the force of the coordinate"
-    whole = _written_whole(context, [term for _, terms in found for term in terms])
+    each = [term for _, terms in found for term in terms]
+    long = {len(term.rates) for term in each if cost(context.show(value_of_term(context, term))) > LONGEST}
+    whole = frozenset(len(term.rates) for term in each) - long  # of these all have their values beside
     types = {q.type for q in robot.coordinates}
     names = {JointType.REVOLUTE: "torque", JointType.PRISMATIC: "force"}
     header = ("torque or force" if len(types) > 1 else names[types.pop()], "term", "what it is")
@@ -187,12 +189,6 @@ def rates_of(context: Context, term: Term) -> list[tuple[Node, int]]:
     names = context.robot.ring.names
     rates: list[tuple[Node, int]] = [(Symbol(names[place], dots), 1) for place, dots in term.rates]
     return [(rates[0][0], 2)] if term.kind is Kind.CENTRIFUGAL else rates
-
-
-def _written_whole(context: Context, terms: Sequence[Term]) -> frozenset[int]:
-    """The numbers of rates of which all terms have their values beside their names, being short."""
-    long = {len(term.rates) for term in terms if cost(context.show(value_of_term(context, term))) > LONGEST}
-    return frozenset(len(term.rates) for term in terms) - long
 
 
 # -- units -----------------------------------------------------------------------------------------

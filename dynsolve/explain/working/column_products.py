@@ -39,11 +39,10 @@ from dynsolve.explain.working.squares import (
     turn_of_frame,
     turned_name,
     turning_line,
-    without_signs,
 )
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
-from dynsolve.notation.build import factors_of, negated, number_in_front, times, total
+from dynsolve.notation.build import factors_of, number_in_front, times, total
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
@@ -52,7 +51,6 @@ from dynsolve.notation.tree import (
     Parenthesized,
     Power,
     Product,
-    Quotient,
     Row,
     Sum,
     equation,
@@ -143,7 +141,7 @@ def _entry(context: Context, rows: Sequence[Sequence[Expr]], i: int, j: int) -> 
     ring = context.robot.ring
     pairs = [(row[i], row[j]) for row in rows if not (row[i].is_zero or row[j].is_zero)]
     value = sum((a * b for a, b in pairs), start=ring.zero)
-    products, result = _products(context, pairs, is_square=i == j), context.show(value)
+    products, result = squares.products(context, pairs, is_square=i == j), context.show(value)
     used = identities(ring, products, result)
     if used is None:
         return None
@@ -160,21 +158,6 @@ def _entry(context: Context, rows: Sequence[Sequence[Expr]], i: int, j: int) -> 
     if proved(value, [("", products), ("", multiplied)]) is None:
         return None
     return _Entry((i, j), products, multiplied, identities(ring, multiplied, result) or ())
-
-
-def _products(context: Context, pairs: Sequence[tuple[Expr, Expr]], is_square: bool) -> Node:
-    """Σ a b, or Σ a², each in printing order."""
-    collector = context.forms.compactor.collector
-    terms: list[Node] = []
-    for pair in pairs:
-        shown = [context.show(x) for x in pair]
-        bare = [without_signs(x) for x in shown]
-        found = collector.product(*collector.decompose(Product(tuple(bare))), ())
-        if isinstance(found, Quotient) and any(isinstance(part, Quotient) for part in walk(found.numerator)):
-            found = number_in_front(found)  # l (a + b/2)/2 as ½ l (a + b/2): no fraction in another
-        opposite = (shown[0] != bare[0]) != (shown[1] != bare[1])
-        terms.append(negated(found) if opposite and not is_square else found)
-    return sum_of(terms) if is_square else total(terms)
 
 
 def _in_brackets(squares_shown: Node) -> Node:

@@ -67,6 +67,7 @@ from dynsolve.notation.tree import (
     Number,
     Power,
     Product,
+    Quotient,
     Sum,
     Symbol,
     Transpose,
@@ -227,12 +228,17 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     if velocity != context.values[f"v{body.name}"]:
         tactics.insert(0, ("The squares of its entries:", _sum_of_squares(context, components)))
     used = [identities(ring, bracket, context.show(value)) or () for bracket, _, value in found]
-    if not any(used):
-        return _chain(context, body, tactics, collected(ring, _energy(context, body, sorted_out), form))
-    each = dict.fromkeys(identity for some in used for identity in some)
-    opened = "Multiplied out, with" if opened_squares(sorted_out, form) else "With"
-    text = f"{opened} {{used}}{', and collected' * has_many}:"
-    return _chain(context, body, tactics, say(text, used=said(list(each))))
+    words = collected(ring, _energy(context, body, sorted_out), form)
+    if any(used):
+        each = dict.fromkeys(identity for some in used for identity in some)
+        opened = "Multiplied out, with" if opened_squares(sorted_out, form) else "With"
+        words = say(f"{opened} {{used}}{', and collected' * has_many}:", used=said(list(each)))
+    cancelled = list(
+        _cancelled(context, components, sum((x.poly * x.poly for x in components), ring.zero.poly))
+    )
+    if cancelled and words:
+        words = (*with_more(words, ""), *say(" (the terms with {found} cancel):", found=listed(cancelled)))
+    return _chain(context, body, tactics, words)
 
 
 def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[tuple[Node, Node, Expr]]:
@@ -249,11 +255,25 @@ def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[tuple[No
             bracket = sum_of([_square(context.show(a)) for a, _ in pairs])
             whole = times(1, [(bracket, 1), (letters.velocity(first), 2)], decimal=decimal)
         else:
-            products = ([(context.show(x), 1) for x in pair] for pair in pairs)
-            bracket = total([times(1, each, decimal=decimal) for each in products])
+            bracket = products(context, pairs, is_square=False)
             both = [(letters.velocity(q), 1) for q in (first, second)]
             whole = times(2, [(bracket, 1), *both], decimal=decimal)
         yield bracket, whole, value
+
+
+def products(context: Context, pairs: Sequence[tuple[Expr, Expr]], is_square: bool) -> Node:
+    """Σ a b, or Σ a², each in printing order."""
+    collector = context.forms.compactor.collector
+    terms: list[Node] = []
+    for pair in pairs:
+        shown = [context.show(x) for x in pair]
+        bare = [without_signs(x) for x in shown]
+        found = collector.product(*collector.decompose(Product(tuple(bare))), ())
+        if isinstance(found, Quotient) and any(isinstance(part, Quotient) for part in walk(found.numerator)):
+            found = number_in_front(found)  # l (a + b/2)/2 as ½ l (a + b/2): no fraction in another
+        opposite = (shown[0] != bare[0]) != (shown[1] != bare[1])
+        terms.append(negated(found) if opposite and not is_square else found)
+    return sum_of(terms) if is_square else total(terms)
 
 
 def _from_components(

@@ -279,6 +279,12 @@ def test_axes_of_frame_0_at_rest_are_worked_out() -> None:
     ]
 
 
+TWO_ARMS = """
+gravity: none
+dh: [{theta: a*, a: l}, {from: 0, theta: b*, a: k}]
+masses: [{mass: m, link: 1}, {mass: M, link: 2}]
+"""
+
 ENDS_ON_ITS_AXIS = """
 dh: [{theta: q1*, d: l1}]
 masses: [{mass: m, link: 1, center: [lc, 0, 0]}]
@@ -288,6 +294,7 @@ masses: [{mass: m, link: 1, center: [lc, 0, 0]}]
 @pytest.mark.parametrize(("problem", "told"), [
     ("box-cylinder-rod-sphere", {"axes": "𝐳₀ × (u₁, u₂, u₃)ᵀ = (-u₂, u₁, 0)ᵀ"}),
     ("rp-vertical", {"axes": "𝐳₁ × (u₁, u₂, u₃)ᵀ = (-u₂, u₁, 0)ᵀ"}),
+    (TWO_ARMS, {"axes": "𝐳₀ × (u₁, u₂, u₃)ᵀ = (-u₂, u₁, 0)ᵀ"}),
     (ENDS_ON_ITS_AXIS, {"Jv1": "𝐳₀ × (u₁, u₂, u₃)ᵀ = (-u₂, u₁, 0)ᵀ"}),
 ])  # fmt: skip
 def test_how_a_product_with_an_axis_of_the_base_is_read_off_is_said_once(

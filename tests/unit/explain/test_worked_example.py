@@ -36,7 +36,7 @@ def normal(problem: str) -> str:
         ("planar-2r-reach", "q₂ is beyond the limits."),
         ("planar-3r-redundant", "The state is q₁ = 0, q₂ = 0, q₃ = 0. 𝐪̇ = 𝐉_r⁺ 𝐫̇"),
         ("rp-parameters", "Fewer than 3 entries are not enough"),
-        ("planar-2r-motors", "Motor 2 rides on link 1"),
+        ("planar-2r-motors", "The rotor that drives q₂ rides on link 1"),
     ],
 )
 def test_what_answers_a_question_or_is_needed_for_a_line_is_shown(problem: str, told: str) -> None:

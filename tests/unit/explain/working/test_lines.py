@@ -432,7 +432,7 @@ def test_squares_of_sums_of_lengths_are_multiplied_out_by_the_rates() -> None:
     assert lines("puma560-first3", "Kv2")[-3:] == [
         "Multiplied out, and sorted by the products of the rates:",
         "K_v2 = ½ m₂ (((z₂ c₂)² + (z₂ s₂)² + (y₂ s₂ - (a₂ + x₂) c₂)²) θ̇₁² "
-        "- 2(z₂ c₂ y₂ + z₂ s₂ (a₂ + x₂)) θ̇₁ θ̇₂ + (y₂² + (a₂ + x₂)²) θ̇₂²)",
+        "- 2(y₂ z₂ c₂ + z₂ (a₂ + x₂) s₂) θ̇₁ θ̇₂ + (y₂² + (a₂ + x₂)²) θ̇₂²)",
         "With s₂² + c₂² = 1, and collected:",
     ]
     assert lines("puma560-first3", "Kv3")[-1] == (

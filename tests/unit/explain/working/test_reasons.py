@@ -63,6 +63,22 @@ dh: [{d: x*}, {theta: t*, alpha: 45deg}]
 masses: [{mass: m, link: 2, center: [c, 0, 0]}]
 """
 
+LEANING_AXES = """
+gravity: none
+axes: [{turn: q1, about: [0, 0, 1], through: [0, 0, 0]},
+  {turn: q2, about: [cos(30deg), 0, sin(30deg)], through: [0, 0, 0]}]
+tip: [0, b, 0]
+zero: drawn
+masses: [{mass: m, link: 2, center: tip}]
+"""
+
+ON_A_CONE = """
+gravity: none
+model:
+  coordinates: {r: prismatic, W: revolute}
+  bodies: [{mass: m, at: [r*cos(W)*cos(30deg), r*sin(W)*cos(30deg), r*sin(30deg)]}]
+"""
+
 PENDULUM = """
 gravity: none
 dh: [{theta: q1*, a: l}]
@@ -155,3 +171,10 @@ def test_the_square_of_a_sum_of_decimals_names_its_identities() -> None:
         "The square of the sum multiplied out, with s₂² + c₂² = 1, the cosine of twice an angle, "
         "c₂² - s₂² = cos(2q₂) and the sine of twice an angle, 2s₂ c₂ = sin(2q₂), and collected:"
     )
+
+
+def test_products_beside_two_rates_are_multiplied_and_what_cancels_is_told() -> None:
+    assert "+ b² q̇₁ q̇₂ + b² q̇₂²" in lines(LEANING_AXES, "Kv1")[-2]
+    *_, leaning, cancelling = lines(ON_A_CONE, "Kv1")
+    assert "2((√3)² r sin(W) cos(W)/4 - (√3)² r sin(W) cos(W)/4)" in leaning
+    assert "(the terms with " in cancelling and cancelling.endswith(" cancel):")
