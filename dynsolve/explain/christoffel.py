@@ -87,7 +87,6 @@ def christoffel_step(context: Context) -> Step:
 
 
 def _is_asked(context: Context, i: int, j: int, k: int) -> bool:
-    """Whether the exercise asks for a symbol by its name, of indices from 0."""
     names = {f"c{i + 1}{j + 1}{k + 1}", f"c{j + 1}{i + 1}{k + 1}"}
     return not names.isdisjoint(context.find)
 

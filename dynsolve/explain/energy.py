@@ -203,7 +203,6 @@ def _joint_read_off(context: Context, body: Body) -> Joint | None:
 
 
 def _is_at_the_end(context: Context, body: Body) -> bool:
-    """Whether the mass centre of a body is the end of the arm."""
     is_last = body.link == len(context.robot.joints)
     return is_last and bool(context.values[f"rc{body.name}"] == end_of(context))
 

@@ -156,6 +156,11 @@ class Forms:
                 return self._momentum_in_decimals(value)
             if quantity.family in _KINETIC:
                 return self._kinetic_in_decimals(value)
+            if self.robot.actions.stored and name == "g":
+                return tree.column(*(self._beside_springs(entry, k) for k, entry in enumerate(entries)))
+            if self.robot.actions.stored and quantity.family in (families.FORCE, families.DLDQ):
+                sign = 1 if quantity.family is families.FORCE else -1
+                return self._beside_springs(value, quantity.index[0] - 1, sign)
         if name == "tau":
             return tree.column(*(self(f"tau{q.index}") for q in self.robot.coordinates))
         if name == "L":
@@ -166,22 +171,31 @@ class Forms:
 
     def _potential_energy(self, compact: Node) -> Node:
         """Σ P_i as it is added up, its bodies collected where they share terms; or what is much shorter."""
-        if self.robot.is_numeric or not self.robot.bodies:
+        is_numeric, springs = self.robot.is_numeric, self.robot.actions.stored
+        if (is_numeric and not springs) or not self.robot.bodies:
             return compact
         names = [f"P{body.name}" for body in self.robot.bodies]
         parts = [self.values[name] for name in names]
         whole = sum(parts, start=self.robot.ring.zero)
-        forms = [self.of(whole)] if len(whole) < sum(map(len, parts)) else [self(name) for name in names]
-        added = total([*forms, *([self("Ps")] if self.robot.actions.stored else [])])
+        is_shorter = is_numeric or len(whole) < sum(map(len, parts))
+        forms = [self.of(whole)] if is_shorter else [self(name) for name in names]
+        added = total([*forms, *([self("Ps")] if springs else [])])
         return added if cost(added) <= 1.5 * cost(compact) else compact
 
     def _momentum_in_decimals(self, momentum: Expr) -> Node:
         """Σ d_kj q̇_j, by the rates: decimals that two of them share are no reason to draw them together."""
         ring = momentum.ring
         rates = [Symbol(q.name, 1) for q in self.robot.coordinates]
-        slopes = [Expr(ring, momentum.poly.derivative(ring.symbol_indices[(q.name, 1)])) for q in rates]
-        terms = zip(map(self.of, slopes), rates, strict=True)
+        terms = ((self.of(ring.diff_velocity(momentum, k)), rate) for k, rate in enumerate(rates))
         return total([times(1, [(slope, 1), (rate, 1)], decimal=True) for slope, rate in terms])
+
+    def _beside_springs(self, force: Expr, k: int, sign: int = 1) -> Node:
+        """A force with 250 (z - 0.4) as a term, whose number is not added to a weight."""
+        springs = force.ring.diff(self.values["Ps"], k) * sign
+        rest = force - springs
+        if (0,) * len(force.ring.generators) in set(rest.poly.monoms()) & set(springs.poly.monoms()):
+            return total([self.of(rest), self.of(springs)])
+        return self.of(force)
 
     def _kinetic_in_decimals(self, energy: Expr) -> Node:
         """½ (d_11 q̇_1² + 2 d_12 q̇_1 q̇_2 + …), each d_kj as it is rounded elsewhere; 0 of no energy."""
@@ -190,10 +204,9 @@ class Forms:
         if inner == ZERO:
             return ZERO
         if isinstance(inner, tree.Sum):
-            rates = [ring.symbol_indices[(name, 1)] for name in names]
             terms: list[Node] = []
             for j, k in pairs(len(names)):
-                entry = self.of(Expr(ring, energy.poly.derivative(rates[j]).derivative(rates[k])))
+                entry = self.of(ring.diff_velocity(ring.diff_velocity(energy, j), k))
                 factors = [(entry, 1), *rates_of_pair(names, j, k)]
                 terms.append(times(1 if j == k else 2, factors, decimal=True))
             inner = total(terms)

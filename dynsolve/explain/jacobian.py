@@ -383,7 +383,6 @@ def coordinate_column(context: Context, k: int, link: int, point: Node) -> tuple
 
 
 def _total(terms: Sequence[tuple[Fraction, Node]]) -> Node:
-    """Σ rate·part"""
     return sum_of([_rated(rate, part) for rate, part in terms]) if terms else ZERO
 
 

@@ -130,6 +130,5 @@ def _in_numbers(context: Context, place: Node) -> Fraction | None:
 
 
 def _decimal(value: Fraction) -> Node:
-    """A number with a decimal point."""
     size = Number(abs(value.numerator), value.denominator, decimal=value.denominator > 1)
     return Negative(size) if value < 0 else size

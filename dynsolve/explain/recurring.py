@@ -432,7 +432,6 @@ def _primitive(terms: Iterable[tuple[_Monomial, Fraction]]) -> tuple[_Primitive,
 
 
 def _monomial(term: Node) -> tuple[_Monomial, Fraction]:
-    """A term as (its factors with their exponents, its number)."""
     sign, inner = split_sign(term)
     number = Fraction(sign)
     if isinstance(inner, Quotient) and isinstance(inner.denominator, Number):

@@ -110,7 +110,6 @@ def from_energies(context: Context) -> bool:
 
 
 def _forces(context: Context) -> tuple[str, ...]:
-    """The steps of the forces, by name."""
     return tuple(f"tau{q.index}" for q in context.robot.coordinates)
 
 

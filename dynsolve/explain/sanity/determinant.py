@@ -71,7 +71,6 @@ def _of_tensors(robot: Robot, *, moments: bool) -> set[str]:
 
 
 def _names(expr: Expr) -> set[str]:
-    """The parameters that occur in an expression."""
     degrees = expr.poly.degrees()
     return {g.name for g in expr.ring.generators if g.name in expr.ring.parameters and degrees[g.index] > 0}
 

@@ -225,7 +225,6 @@ def _lines(
 
 
 def _times(front: tuple[Node, ...], member: Node) -> Node:
-    """What stands in front of an entry, times this."""
     return Product(
         (*front, *(factors_of(member) if isinstance(member, Product) else (Parenthesized(member),)))
     )

@@ -327,7 +327,6 @@ def _in_the_order_of(value: Node, terms: Mapping[tuple[int, int], Node]) -> list
 
 
 def _is_zero(context: Context, i: int, j: int, k: int) -> bool:
-    """Whether c_ijk, the same as c_jik, is zero."""
     return bool(context.values["christoffel"][min(i, j), max(i, j), k].is_zero)
 
 

@@ -317,7 +317,6 @@ def with_more(words: Prose, more: str) -> Prose:
 
 
 def _without_numbers(node: Node) -> Node:
-    """A product without the numbers among its factors."""
     if not isinstance(node, Product):
         return node
     left = [each for each in node.factors if not all(isinstance(x, Number | Quotient) for x in walk(each))]

@@ -628,7 +628,6 @@ def factored(forms: Forms, poly: fmpq_mpoly) -> Node:
 
 
 def _terms(ring: Ring, poly: fmpq_mpoly) -> Node:
-    """A polynomial term by term, as it stands."""
     terms: list[Node] = []
     for powers, number in poly.to_dict().items():
         found = [(ring.generators[i], int(e)) for i, e in enumerate(powers) if e]
@@ -638,7 +637,6 @@ def _terms(ring: Ring, poly: fmpq_mpoly) -> Node:
 
 
 def _generator(ring: Ring, g: Generator) -> Node:
-    """A generator as a formula."""
     if g.kind in ("sin", "cos"):
         return Function(g.kind, angle_node(g.angle, ring.names))
     if g.node is None:

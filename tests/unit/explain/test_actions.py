@@ -115,3 +115,17 @@ def test_a_formula_that_is_the_result_stands_once() -> None:
         text = page(spring, detail)
         assert "P_s = ½ k q₁² (Siciliano et al. §7.1.2)" in text
         assert "P_s = ½ k q₁² P_s" not in text and "§7.1.2) P_s = ½ k q₁²" not in text
+
+
+def test_a_spring_in_numbers_is_not_added_to_a_weight() -> None:
+    slide = """
+gravity: [0, 0, -9.81]
+dh: [{d: z*}]
+masses: [{mass: 0.5, link: 1}]
+springs: [{stiffness: 250, of: z, rest: 0.4}]
+"""
+    forms = solved(slide).forms
+    assert to_unicode(forms("P")) == "4.905 z + 125(z - 0.4)²"
+    assert to_unicode(forms.matrix("g").rows[0][0]) == "4.905 + 250(z - 0.4)"
+    assert to_unicode(forms("dLdq1")) == "-4.905 - 250(z - 0.4)"
+    assert to_unicode(forms("tau1")) == "0.5 z̈ + 4.905 + 250(z - 0.4)"
