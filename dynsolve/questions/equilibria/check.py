@@ -226,10 +226,11 @@ def _is_minimum(point: Point, at: Mapping[str, float]) -> bool | None:
     if any(abs(evaluate(factor, at)) < _NEAR for factor in point.nonzero):
         return None
     if not point.conditions:
-        is_told = bool(point.nonzero) or point.stability is Stability.STABLE
-        return True if is_told else {Stability.UNSTABLE: False}.get(point.stability)
+        if point.stability is Stability.UNSTABLE:
+            return False
+        return True if point.nonzero or point.stability is Stability.STABLE else None
     least = min(evaluate(bound.value, at) for bound in point.conditions)
-    return None if least == 0 or (least > 0 and point.is_open) else least > 0
+    return None if abs(least) < _TINY or (least > 0 and point.is_open) else least > 0
 
 
 def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Point) -> None:

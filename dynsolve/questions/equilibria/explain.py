@@ -505,7 +505,8 @@ def _verdict(context: Context, shown: EquilibriaForms, point: Point, place: Pros
     if point.is_open:
         said = ("not told here",)
     elif needed:
-        said = say("stable where {all}", all=listed(needed))
+        verdict: Prose = said if point.stability is Stability.UNSTABLE else ("stable",)
+        said = say("{verdict} where {all}", verdict=verdict, all=listed(needed))
     if point.falls:
         fails = [shown.comparison(bound.value, "<") for bound in point.conditions]
         one: Prose = ("one of these inequalities is reversed",) if len(fails) > 1 else (fails[0],)

@@ -36,12 +36,10 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
         return inequalities(shown, printer, bounds)
 
     def stability(point: Point) -> dict[str, Any]:
-        if (
-            point.stability is Stability.UNSTABLE and point.inside
-        ):  # where a bound is an equality nothing is known
-            return {"stability": Stability.UNDECIDED.value, "unstable_if": written(point.inside)}
         bounds = (*point.inside, *point.conditions)
         needed = [*written(bounds), *(_nonzero(shown, printer, factor) for factor in point.nonzero)]
+        if point.stability is Stability.UNSTABLE and needed:  # where a bound is an equality nothing is known
+            return {"stability": Stability.UNDECIDED.value, "unstable_if": needed}
         conditions = {"stable_if": needed} if needed and not point.is_open else {}
         if point.falls:
             conditions["unstable_if"] = written([Bound(-bound.value) for bound in point.conditions])

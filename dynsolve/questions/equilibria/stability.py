@@ -92,8 +92,9 @@ class Point(Struct, frozen=True):
     in any motion along the equilibria, in which the others follow these.  Where the stability is
     undecided, and there are `conditions` on the parameters, it is stable where these hold; where one of
     them fails the energy has no minimum, so that, if `falls`, the equilibrium is unstable.  Where its two
-    sides are equal nothing is said, nor where one of `nonzero` is 0.  Coordinates stand in conditions
-    where their values are not known; `is_open` says that it is not told where it is stable.  All this is so
+    sides are equal nothing is said, nor, of what is unstable too, where one of `nonzero` is 0.  Coordinates
+    stand in conditions where their values are not known; `is_open` says that it is not told where it is
+    stable.  All this is so
     where the case is there and none of its bounds, `inside`, is an equality.  `along` is what constraints
     leave of the second derivatives.
     """
@@ -152,7 +153,11 @@ class Curvature(Struct, frozen=True):
             if point.falls and any(self._always_holds(-bound.value, alternative) for bound in left):
                 point = replace(point, stability=Stability.UNSTABLE, falls=False, is_open=False)
                 nonzero = left = ()
-            elif (point.nonzero or point.conditions) and not (nonzero or left or point.is_open):
+            elif (
+                point.stability is Stability.UNDECIDED
+                and (point.nonzero or point.conditions)
+                and not (nonzero or left or point.is_open)
+            ):
                 point = replace(point, stability=Stability.STABLE, falls=False)
             yield replace(point, nonzero=nonzero, conditions=left)
 
@@ -214,10 +219,12 @@ class Curvature(Struct, frozen=True):
         point = replace(self._point(values, along.without_fractions, apart, (), here), along=along)
         inside = signs.beside(*point.conditions)
         dependent = tuple(inside.open_factors(along.size))
-        if not dependent or not point.is_told or point.stability is Stability.UNSTABLE:
+        if not dependent or not point.is_told:
             return point
         nonzero = tuple(dict.fromkeys((*point.nonzero, *dependent)))
-        return replace(point, stability=Stability.UNDECIDED, nonzero=nonzero)
+        is_unstable = point.stability is Stability.UNSTABLE
+        stability = Stability.UNSTABLE if is_unstable else Stability.UNDECIDED
+        return replace(point, stability=stability, nonzero=nonzero)
 
     def _drifting(self, values: Values, second: Matrix, signs: ParameterSigns, held: int) -> Point | None:
         """The stability where equilibria, of which `held` conditions are asked, are all that is flat.

@@ -17,7 +17,7 @@ from dynsolve.questions.constraints.check import verify_constraints
 from dynsolve.render.files import Format
 from dynsolve.solution.leading import leading
 from dynsolve.solution.reports import report
-from tests.support import numbers
+from tests.support import numbers, solve_json
 
 ELBOW = """
 gravity: [0, -g, 0]
@@ -258,3 +258,28 @@ def test_what_is_kept_is_told_in_one_spelling() -> None:
     text = "model: {coordinates: {x: prismatic, y: prismatic}, D: [[m, 0], [0, m]]}\nconstraints: [y + c*x]\n"
     shown = report(dynsolve.solve(text + "find: [Ac]\n"), Format.TEXT).decode()
     assert "𝐡 = c x + y" in shown and "y + c x =" not in shown.partition("stays 0")[2]
+
+
+AT_THE_EDGE = """
+model:
+  coordinates: {u: revolute, v: revolute}
+  K: J*u'^2/2 + J*v'^2/2
+  P: m*g*a*sin(u)
+constraints: [a*sin(u) + b*sin(v) - h]
+find: [equilibria]
+"""
+
+
+def test_where_nothing_can_move_nothing_is_said_to_fall() -> None:
+    """At h = a + b the constraint leaves one configuration."""
+    (_, above) = solve_json(AT_THE_EDGE)["results"]["equilibria_stability"]
+    up = next(point for point in above if point.get("u") == "pi/2")
+    assert up == {"u": "pi/2", "stability": "undecided", "unstable_if": ["b + h > a", "a + b > h"]}
+
+
+def test_a_condition_that_is_0_all_along_decides_nothing() -> None:
+    """On v = u + π the energy is 0, and what the condition comes to in numbers is rounding."""
+    crossing = AT_THE_EDGE.replace("m*g*a*sin(u)", "k*(cos(u) + cos(v))").replace(
+        "a*sin(u) + b*sin(v) - h", "sin(u) + sin(v)"
+    )
+    assert solve_json(crossing)["results"]["equilibria"] == [["sin(v - u) = 0", "sin(u) + sin(v) = 0"]]
