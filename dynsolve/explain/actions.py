@@ -46,6 +46,7 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
+from dynsolve.robot import units
 from dynsolve.robot.actions import part
 from dynsolve.robot.model import Act, Body, Resisting, Robot, Rotor, Stored
 from dynsolve.robot.shapes import AXES
@@ -258,7 +259,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
     )
     if context.robot.gravity.is_zero:
         return replace(step, why=("There is no gravity.",), said="no gravity")
-    further = (equation(letters.GRAVITY, gravity_row(context)),) if tells else ()
+    further = (gravity_given(context),) if tells else ()
     normal = step.normal if tells or body.mass.is_zero else WORKED
     step = replace(step, further=further, normal=normal)
     if body.mass.is_zero:
@@ -297,7 +298,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
         ),
         formula=formula("{P} = -{m} {pull} = {m} {g} {h}", P=P, m=m, pull=pull, g=g, h=h),
         further=(*further, side_by_side(given)) if given else further,
-        working=(equation(h, context.show(at if is_up else -at)),),
+        working=(equation(h, measured(context.show(at if is_up else -at), "m")),),
     )
 
 
@@ -323,6 +324,13 @@ def _of_gravity(context: Context) -> Prose:
 def gravity_row(context: Context) -> Transpose:
     """The vector of gravity as the transpose of a row."""
     return Transpose(tree.Matrix((tuple(map(context.show, context.robot.gravity.entries)),)))
+
+
+def gravity_given(context: Context) -> Node:
+    """g₀, with its unit where it is in numbers."""
+    row, is_number = gravity_row(context), all(entry.is_number for entry in context.robot.gravity.entries)
+    with_unit = Row((row, Words(" "), units.node(units.si(units.ACCELERATION))))
+    return equation(letters.GRAVITY, with_unit if is_number else row)
 
 
 def _along(context: Context) -> tuple[int, Expr, bool] | None:

@@ -144,7 +144,9 @@ def _is_multiplied_in(context: Context, mass: Expr, product: Matrix) -> bool:
 
 def sum_step(context: Context) -> Step | None:
     """D as the sum of what the bodies and the rotors add; None where one of them alone adds something."""
-    parts = _summands(context)
+    names = [part + body.name for body in context.robot.bodies for part in ("Dv", "Dw")]
+    names += ["Dm"] * bool(context.robot.actions.rotors)
+    parts = [name for name in names if name in context.values.rules and not context.values[name].is_zero]
     if len(parts) < 2:
         return None
     same = context.values["D"] == context.values["D_direct"]
@@ -170,13 +172,6 @@ def sum_step(context: Context) -> Step | None:
         uses=(*added, "Dm"),
         is_task=False,
     )
-
-
-def _summands(context: Context) -> list[str]:
-    """The quantities that D is the sum of, without those that are zero."""
-    names = [part + body.name for body in context.robot.bodies for part in ("Dv", "Dw")]
-    names += ["Dm"] * bool(context.robot.actions.rotors)
-    return [name for name in names if name in context.values.rules and not context.values[name].is_zero]
 
 
 def _summed_entries(context: Context, parts: Sequence[str]) -> Iterator[Node]:

@@ -185,7 +185,10 @@ def notation(
         *general,
         *_of_shapes(robot, occurring - own),
     ]
-    lines += _of_drawing(robot, occurring.difference(*(line.kinds for line in lines)))
+    unknown = occurring.difference(*(line.kinds for line in lines))
+    names = sorted(name for _, kind, name in unknown if kind == "name" and name not in COUNTING)
+    if names and Stage.FRAMES in stages_of(robot):  # on these the table does not depend
+        lines.append(_named(names, "lengths in the drawing alone", "m"))
     shown = _merged(
         _told(line.of(line.kinds & occurring, style), style) for line in lines if line.kinds & occurring
     )
@@ -250,13 +253,6 @@ def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:
         if own:
             meaning = f"{', '.join(SHAPES[letter] for letter in own)} of a uniform shape"
             yield _named([signs[letter] for letter in own], meaning, unit)
-
-
-def _of_drawing(robot: Robot, unknown: set[Kind]) -> Iterator[Line]:
-    """The lengths of a drawing on which the table does not depend."""
-    names = sorted(name for _, kind, name in unknown if kind == "name" and name not in COUNTING)
-    if names and Stage.FRAMES in stages_of(robot):
-        yield _named(names, "lengths in the drawing alone", "m")
 
 
 def _remarks(robot: Robot, occurring: set[Kind], own: set[Kind]) -> Iterator[Inline]:

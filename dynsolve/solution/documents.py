@@ -233,7 +233,7 @@ def summary_blocks(
         if names and names.short.single and names.short.single.name in walk(*names.others) and forces:
             rows = rows_in_names(robot, names.short, forms)
         yield from names.told([], rows) if names else ()
-        yield from _rows(robot, forces, rows) if forces else ()
+        yield from _rows(robot, forces, rows, "The generalized forces") if forces else ()
     yield from others
 
 
@@ -296,9 +296,11 @@ def _forces(robot: Robot, by_id: Mapping[str, Step]) -> list[Step]:
     return [by_id[name] for q in robot.coordinates if (name := f"tau{q.index}") in by_id]
 
 
-def _rows(robot: Robot, forces: Sequence[Step], rows: Sequence[Node]) -> Iterator[Block]:
+def _rows(
+    robot: Robot, forces: Sequence[Step], rows: Sequence[Node], several: str = "Row by row"
+) -> Iterator[Block]:
     """The generalized forces of some steps, row by row, and which of them are 0."""
-    lead: Prose = ("Row by row" if len(forces) > 1 else "The equation of motion",)
+    lead: Prose = (several if len(forces) > 1 else "The equation of motion",)
     passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
     lead += (", with ", equation(*passive, ZERO)) if passive else ()
     yield Text((*lead, Reference(tuple(step.id for step in forces), ", "), ":"))

@@ -17,7 +17,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document.sentences import say
-from dynsolve.explain.actions import gravity_row
+from dynsolve.explain.actions import gravity_given
 from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import is_too_long
@@ -220,7 +220,7 @@ def _potential(context: Context) -> Step:
         ),
         formula=formula("P_i = -m_i 𝐠_0ᵀ 𝐫_ci"),
         source=spong("7.2.3"),
-        further=(equation(letters.GRAVITY, gravity_row(context)),),
+        further=(gravity_given(context),),
         lines=rows,
         concluding=("So, each weight times the height of its mass centre:",) if rows else (),
         result=tuple(

@@ -228,7 +228,7 @@ def test_after_the_recursions_no_matrix_is_read_off_that_nobody_asks_for() -> No
 
     solution = dynsolve.solve(ARM + "find: [tau]\n", method=Method.NEWTON_EULER)
     told = report(solution, Format.TEXT).decode()
-    assert "The matrix form" not in told and "Row by row:" in told[told.index("Summary") :]
+    assert "The matrix form" not in told and "The generalized forces:" in told[told.index("Summary") :]
     asked = dynsolve.solve(ARM + "find: [nl1, wl2]\n")
     told = report(asked, Format.TEXT).decode()
     assert "Newton-Euler recursions" in told and "Lagrang" not in told

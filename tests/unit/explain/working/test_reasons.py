@@ -79,6 +79,12 @@ model:
   bodies: [{mass: m, at: [r*cos(W)*cos(30deg), r*sin(W)*cos(30deg), r*sin(30deg)]}]
 """
 
+PAN_TILT = """
+gravity: [0, 0, -9.81]
+dh: [{theta: q1*, d: 0.3, alpha: 90deg}, {theta: q2*, a: c}]
+masses: [{mass: m1, link: 1, center: origin}, {mass: m2, link: 2, center: tip}]
+"""
+
 PENDULUM = """
 gravity: none
 dh: [{theta: q1*, a: l}]
@@ -178,3 +184,8 @@ def test_products_beside_two_rates_are_multiplied_and_what_cancels_is_told() -> 
     *_, leaning, cancelling = lines(ON_A_CONE, "Kv1")
     assert "2((√3)² r sin(W) cos(W)/4 - (√3)² r sin(W) cos(W)/4)" in leaning
     assert "(the terms with " in cancelling and cancelling.endswith(" cancel):")
+
+
+def test_a_number_has_its_unit_beside_letters() -> None:
+    page = normal(PAN_TILT)
+    assert "η₁ = 0.3 m" in page and "[0 0 -9.81]ᵀ m/s² g = 9.81 m/s²" in page
