@@ -183,7 +183,6 @@ def _place(factor: tuple[Node, int]) -> tuple[int, str]:
 
 
 def _sines_first(factors: list[tuple[Node, int]]) -> list[tuple[Node, int]]:
-    """s₂ c₂ and not c₂ s₂, as elsewhere."""
     for k in range(len(factors) - 1):
         (left, _), (right, _) = factors[k : k + 2]
         if isinstance(right, Function) and right.name == "sin" and left == Function("cos", right.argument):

@@ -200,7 +200,7 @@ class Forms:
     def _kinetic_in_decimals(self, energy: Expr) -> Node:
         """½ (d_11 q̇_1² + 2 d_12 q̇_1 q̇_2 + …), each d_kj as it is rounded elsewhere; 0 of no energy."""
         ring, names = energy.ring, self.robot.ring.names
-        inner = self.of(energy * 2)
+        inner = _without_minus(self.of(energy * 2))
         if inner == ZERO:
             return ZERO
         if isinstance(inner, tree.Sum):

@@ -576,7 +576,6 @@ def _same_origin(context: Context, joint: Joint) -> int | None:
 
 
 def _terms(node: Node) -> tuple[Node, ...]:
-    """The terms of a sum; of 0 none."""
     if node == number(0):
         return ()
     return node.terms if isinstance(node, Sum) else (node,)

@@ -75,7 +75,7 @@ class Collector:
     def __init__(self, atoms: AtomTable, *, decimal: bool = False, typed: Collection[Rational] = ()) -> None:
         self.atoms = atoms
         self.decimal = decimal
-        self._typed = typed
+        self.typed = typed
         self._known: dict[frozenset[tuple[Monomial, Rational]], Node] = {}
         self._costs: dict[int, tuple[Node, int]] = {}
         self._fractions: dict[int, Polynomial] = {}
@@ -126,13 +126,13 @@ class Collector:
 
     def _typed_in(self, poly: Polynomial) -> Rational | None:
         """The decimal to draw out of a length so that its own ones were typed: 250 k (r - 0.4)."""
-        shared = common(poly) if self._typed else ()
-        if not self._typed or not all(self._is_length(divide(mono, shared)) for mono in poly):
+        shared = common(poly) if self.typed else ()
+        if not self.typed or not all(self._is_length(divide(mono, shared)) for mono in poly):
             return None
         sizes: list[Rational] = [f if f > 0 else -f for f in poly.values()]
         for size in sizes:
             rest = {exact(other, size) for other in sizes} - {1}
-            if rest and all(number in self._typed for number in rest):
+            if rest and all(number in self.typed for number in rest):
                 return size
         return None
 

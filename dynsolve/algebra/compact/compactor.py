@@ -233,7 +233,23 @@ class Compactor:
             found = min(self._by_masses(rest), found, key=self.collector.cost)
         if size != 1:
             found = self.collector.sum_of([(size, (), found)])
+        found = min(self._typed_square(rest) or found, found, key=self.collector.cost)
         return self.collector.sum_of([(*shared, found)])
+
+    def _typed_square(self, terms: Terms) -> Node | None:
+        """0.5 (0.2 + 0.3 c₂)², where numbers were typed that make a square of the terms; else None."""
+        typed = {*self.collector.typed, 1} if self.collector.typed else set()
+        if not SMALLEST_SQUARE <= len(terms) <= LARGE or any(e[MASSES] or e[RATES] for e in terms):
+            return None
+        for size in sorted({exact(f, root * root) for f in terms.values() for root in typed if f > 0}):
+            whole = {e: exact(f, size) for e, f in terms.items()}
+            for completed in (False, True):
+                square = self._with_square(whole, completed=completed)
+                if isinstance(square, tree.Power) and isinstance(square.base, tree.Sum):
+                    numbers = {abs(self.collector.decompose(term)[0]) for term in square.base.terms}
+                    if numbers <= typed:
+                        return self.collector.product(size, (), (square,))
+        return None
 
     def _usual(self, terms: Terms) -> tuple[Rational, Terms]:
         """(size, terms / size): a polynomial and twice it are spelled alike.

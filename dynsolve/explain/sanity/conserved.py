@@ -91,7 +91,6 @@ def _of_energy(context: Context) -> Line | None:
 
 
 def _of_power(context: Context) -> Prose:
-    """What changes the energy."""
     driving = driving_side(context, constrained=False)
     if (
         driving == letters.TAU

@@ -163,3 +163,13 @@ def test_a_mass_centre_at_the_near_end_is_its_origin() -> None:
     shown = page(arm)
     assert "The mass centre of body 1 is at the near end of link 1, 𝐨₀." in shown
     assert "𝐫_c1 = 𝐨₀" in shown
+
+
+def test_a_difference_of_moments_in_decimals_has_no_minus_before_it() -> None:
+    link = """
+gravity: [0, -g, 0]
+dh: [{theta: q*, a: l, alpha: 90deg}]
+masses: [{mass: m, link: 1, center: [-l/2, 0.1, 0], inertia: {xx: A, yy: B, zz: C}, about: origin}]
+find: [K]
+"""
+    assert "½ (B - 0.25 m l²) q̇²" in page(link, Detail.FULL)

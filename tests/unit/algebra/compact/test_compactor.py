@@ -355,3 +355,20 @@ def test_a_decimal_is_drawn_out_of_a_length_where_that_leaves_what_was_typed(spr
     problem = read_problem(f"{slides}springs: [{spring}]\n")
     g = Forms(problem.robot, derive(problem.robot))("g")
     assert isinstance(g, Matrix) and to_unicode(g.rows[0][0]) == force
+
+
+@pytest.mark.parametrize(
+    ("rows", "entry"),
+    [
+        ("{theta: q1*, a: 0.2, alpha: 90deg}, {theta: q2*, a: 0.3}", "0.5 (0.2 + 0.3 cos(q₂))²"),
+        (
+            "{theta: q1*, a: 0.2, alpha: -90deg}, {theta: q2* - 90deg, a: 0.1, alpha: -90deg}, {d: q3*}",
+            "0.5 (0.2 + 0.1 sin(q₂) + q₃ cos(q₂))²",
+        ),
+    ],
+)
+def test_a_mass_in_numbers_stands_before_the_square_of_a_distance(rows: str, entry: str) -> None:
+    last = rows.count("{")
+    problem = read_problem(f"gravity: none\ndh: [{rows}]\nmasses: [{{mass: 0.5, link: {last}}}]\n")
+    D = Forms(problem.robot, derive(problem.robot))("D")
+    assert isinstance(D, Matrix) and to_unicode(D.rows[0][0]) == entry
