@@ -233,9 +233,8 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
         each = dict.fromkeys(identity for some in used for identity in some)
         opened = "Multiplied out, with" if opened_squares(sorted_out, form) else "With"
         words = say(f"{opened} {{used}}{', and collected' * has_many}:", used=said(list(each)))
-    cancelled = list(
-        _cancelled(context, components, sum((x.poly * x.poly for x in components), ring.zero.poly))
-    )
+    squares = sum((x.poly * x.poly for x in components), ring.zero.poly)
+    cancelled = list(_cancelled(context, components, squares))
     if cancelled and words:
         words = (*with_more(words, ""), *say(" (the terms with {found} cancel):", found=listed(cancelled)))
     return _chain(context, body, tactics, words)
