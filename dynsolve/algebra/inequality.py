@@ -9,8 +9,10 @@ numbers; what is not found in this way is not said.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
 from itertools import combinations
 from math import prod
+from random import Random
 
 from flint import fmpq
 from msgspec import Struct
@@ -21,6 +23,9 @@ Exponents = tuple[int, ...]
 Polynomial = dict[Exponents, fmpq]
 
 _ZERO = fmpq(0)
+
+TRIES = 60
+"""At so many points an inequality is tried before it is proved."""
 
 MOST_PRODUCTS = 120
 """So many products of assumptions are tried."""
@@ -45,8 +50,33 @@ def follows(bound: Bound, assumed: Sequence[Bound]) -> bool:
     """
     if bound.value.is_number:
         return bound.value.number > 0 or (not bound.is_strict and bound.value.is_zero)
+    return _follows(bound, tuple(assumed))
+
+
+@lru_cache(maxsize=512)  # what a minor needs is asked for again at each point of a case
+def _follows(bound: Bound, assumed: tuple[Bound, ...]) -> bool:
+    if _fails_somewhere(bound, assumed):
+        return False
     products = list(_products(bound.value, assumed))
     return _is_sum(_polynomial(bound.value), products, bound.is_strict)
+
+
+def _fails_somewhere(bound: Bound, assumed: Sequence[Bound]) -> bool:
+    """Whether an inequality fails at some point where all that is assumed holds: nothing shows it then."""
+    for point in _points(len(bound.value.ring.generators)):
+        value = bound.value.poly(*point)
+        fails = value < 0 or (bound.is_strict and value == 0)
+        if fails and all(one.value.poly(*point) > 0 for one in assumed):
+            return True
+    return False
+
+
+@lru_cache(maxsize=32)
+def _points(dimension: int) -> list[list[fmpq]]:
+    """Points at which inequalities are tried, the same every time; most values are positive."""
+    random = Random(TRIES)  # noqa: S311 - the same values every time are wanted
+    values = [fmpq(k, 2) for k in (-3, -1, 0, 1, 1, 2, 3, 5, 8, 20)]
+    return [[random.choice(values) for _ in range(dimension)] for _ in range(TRIES)]
 
 
 def opposite(bound: Bound) -> Bound:
