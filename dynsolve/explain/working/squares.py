@@ -234,7 +234,8 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
         opened = "Multiplied out, with" if opened_squares(sorted_out, form) else "With"
         words = say(f"{opened} {{used}}{', and collected' * has_many}:", used=said(list(each)))
     squares = sum((x.poly * x.poly for x in components), ring.zero.poly)
-    cancelled = list(_cancelled(context, components, squares))
+    shown = {*walk(sorted_out)}
+    cancelled = [one for one in _cancelled(context, components, squares) if shown.issuperset(factors_of(one))]
     if cancelled and words:
         words = (*with_more(words, ""), *say(" (the terms with {found} cancel):", found=listed(cancelled)))
     return _chain(context, body, tactics, words)
