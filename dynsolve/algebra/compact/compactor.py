@@ -50,6 +50,9 @@ LONG = 60
 SMALLEST_SQUARE = 3
 """The terms of (a c₂ + b c₂₃)², multiplied out."""
 
+MOST_SIZES = 24
+"""So many numbers before a square are tried: in a file of many numbers none is seen to be meant."""
+
 LARGE = 60
 """From this number of terms on one way of collecting is tried and not two."""
 
@@ -241,7 +244,9 @@ class Compactor:
         typed = {*self.collector.typed, 1} if self.collector.typed else set()
         if not SMALLEST_SQUARE <= len(terms) <= LARGE or any(e[MASSES] or e[RATES] for e in terms):
             return None
-        for size in sorted({exact(f, root * root) for f in terms.values() for root in typed if f > 0}):
+        squares = [f for e, f in terms.items() if f > 0 and self._atoms.is_square(e)]
+        sizes = {exact(f, root * root) for f in squares for root in typed}
+        for size in sorted(sizes) if len(sizes) <= MOST_SIZES else ():
             whole = {e: exact(f, size) for e, f in terms.items()}
             for completed in (False, True):
                 square = self._with_square(whole, completed=completed)
