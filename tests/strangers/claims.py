@@ -593,9 +593,11 @@ def _minors(m: Mechanism, s: Sentence) -> bool:
 @says("... Of its two directions the one with a positive {} is taken.")
 @says("Of its two directions the one with a positive {} is taken.")
 def _turns_forwards(m: Mechanism, s: Sentence) -> bool:
-    """sin α is the entry (3, 2) of the matrix of a row in the standard convention."""
+    """sin α is an entry of the matrix of a row: of row i, or in the modified convention of the next one."""
     i, here = int(s.where.split()[-1]), m.point()
-    return bool((np.linalg.inv(m.frame(i - 1, here)) @ m.frame(i, here))[2, 1] > 0)
+    first = i if m.solution.robot.convention is Convention.MODIFIED else i - 1
+    row = np.linalg.inv(m.frame(first, here)) @ m.frame(first + 1, here)
+    return bool((row[2, 1] if first < i else -row[1, 2]) > 0)
 
 
 @says("[Where {}, ]{&} are not <both|all> positive[ in every configuration].")
@@ -1106,7 +1108,8 @@ No body adds anything negative to {}, which is {} where {} and the other rates a
 A rotation leaves the <length of {}|products of the columns> unchanged; along the axes of frame #[, with
   ...]:
 About the mass centre, by the parallel-axis theorem:
-A joint turns about or slides along the {} of <the frame that its row starts from|its own frame>.
+A joint <turns about|slides along|turns about or slides along> the {} of <its own frame|the frame that its
+  row starts from>.
 Its parts; the others are zero:
 In the results, how the base is turned matters to the potential energy and the gravity terms alone: a
   constant rotation leaves lengths unchanged, so it cancels in the kinetic energy.
