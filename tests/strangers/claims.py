@@ -454,7 +454,7 @@ def _no_term_is_negative(m: Mechanism, s: Sentence) -> bool:
     )  # fmt: skip
 
 
-@says("{} is positive: body # adds {} to {}.")
+@says("{} is positive: <body #|the rotors> add[s] {} to {}.")
 def _adds(m: Mechanism, s: Sentence) -> bool:
     d, part, _ = s.formulas
     return all(m.value(d, p) >= m.value(part, p) * (1 - NEAR) > 0 for p in m.points())
