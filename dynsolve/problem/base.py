@@ -204,11 +204,12 @@ class ParsedBase(Struct, frozen=True):
 
 
 class Framed(Struct, frozen=True):
-    """A table, where its frame 0 is, and what both were made from where that is a drawing."""
+    """A table, where its frame 0 is, and of a drawing what both were made from, with its cells."""
 
     table: DHTable
     base: ParsedBase
     normals: Normals | None = None
+    drawn: tuple[Cell, ...] = ()
 
 
 NO_BASE = ParsedBase(None, None)

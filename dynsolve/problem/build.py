@@ -96,7 +96,7 @@ def _has_decimals(cell: Cell, robot: Robot) -> bool:
     """Whether a number of a cell is a decimal; a half or a quarter of a letter is a fraction, too: 0.5 l."""
     if robot.is_numeric or not cell.names:
         return text.has_decimals(cell.text)
-    return any(number.denominator % 5 == 0 for number in _decimals(cell))
+    return bool(cell.text) and any(number.denominator % 5 == 0 for number in _decimals(cell))
 
 
 def _decimals(cell: Cell) -> frozenset[Fraction]:

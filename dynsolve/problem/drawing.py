@@ -258,7 +258,8 @@ class _Framing:
             return None
         normals = normals_of(placed(drawing))
         writer = _Writer(self.parsed, normals)
-        return Framed(DHTable(tuple(writer.rows()), self.parsed.coordinates), writer.base(), normals)
+        table = DHTable(tuple(writer.rows()), self.parsed.coordinates)
+        return Framed(table, writer.base(), normals, self.parsed.cells)
 
     # -- the vectors -------------------------------------------------------------------------------
 

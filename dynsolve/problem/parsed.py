@@ -61,6 +61,8 @@ class ParsedFile(Struct, frozen=True):
     questions: ParsedQuestions
     normals: Normals | None = None
     """Of a drawing, the normals that its table was made from."""
+    drawn: tuple[Cell, ...] = ()
+    """The cells of the drawing."""
     acting: Acting | None = None
     model: Model | None = None
     """In the place of a table and its bodies: a mechanism by positions, or given energies."""
@@ -179,6 +181,7 @@ class ParsedFile(Struct, frozen=True):
         """Every cell that was read."""
         for row in self.table.rows:
             yield from row.cells.values()
+        yield from self.drawn
         for rotation in self.rotations:
             yield from rotation.cells
         yield from (one.cell for one in self.stated)

@@ -196,6 +196,7 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
         bodies=bodies,
         questions=read_questions(faults, fields, rows, coordinates, [body["name"] for body in bodies], drawn),
         normals=framed.normals,
+        drawn=framed.drawn,
         model=model,
         acting=acting,
         stated=(

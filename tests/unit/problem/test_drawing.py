@@ -372,3 +372,18 @@ def test_a_point_that_is_not_in_the_drawing_is_told(marked: str, message: str, h
     assert places(found) == expected
     assert message in found[0].message
     assert help in found[0].help
+
+
+@pytest.mark.parametrize("mass", ["m", "2"])
+@pytest.mark.parametrize(("typed", "has_decimals"), [("0.35", True), ("7/20", False)])
+def test_numbers_of_a_drawing_are_written_as_they_were_typed(
+    mass: str, typed: str, has_decimals: bool
+) -> None:
+    text = f"""
+axes:
+  - {{turn: q1, about: [0, 0, 1], through: [0, 0, 0]}}
+  - {{turn: q2, about: [0, 0, 1], through: [{typed}, 0, 0]}}
+tip: [1, 0, 0]
+masses: [{{mass: {mass}, link: 2, center: tip}}]
+"""
+    assert read_problem(text).robot.has_decimals is has_decimals
