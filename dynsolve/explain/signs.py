@@ -23,6 +23,7 @@ from msgspec.structs import replace
 from dynsolve.document import Block, Equations, Fold, Formula, List, Note, Table, Text, Uses
 from dynsolve.explain.context import shown_digits, style_of
 from dynsolve.explain.forms import parallel_coordinates
+from dynsolve.explain.parameter_meanings import names_in
 from dynsolve.explain.recurring import Definition
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import Sign, Style, shorthand
@@ -65,8 +66,9 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
     """The style of a report on a robot, in which every sign has one meaning.
 
     A model in numbers is shown with `digits` significant digits; without these, with a few more than the
-    longest number of the problem has, so that a reader can follow each line from the one before it.  Where
-    masses are letters, a number is a decimal if that comes to an end, and exact.
+    longest number of the problem has, so that a reader can follow each line from the one before it; beside
+    letters a short fraction that comes to no end is one.  Where masses are letters, a number is a decimal
+    if that comes to an end, and exact.
     """
     style = _with_free_shorthands(robot, style_of(robot))
     short = filter(None, (shorthand(node, style) for node in shorthands(robot, style)))
@@ -81,7 +83,9 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
             found[base, "italic", count] = letter
     decimal = style.decimal or digits is not None
     shown = digits or (shown_digits(robot) + MORE_DIGITS if decimal and robot.is_numeric else 0)
-    return replace(style, letters=found, bold=True, decimal=decimal, digits=shown)
+    gravity = {name for entry in robot.gravity.entries for name in names_in(entry)}
+    has_letters = digits is None and not gravity.issuperset(robot.parameters)
+    return replace(style, letters=found, bold=True, decimal=decimal, digits=shown, fractions=has_letters)
 
 
 def _with_free_shorthands(robot: Robot, style: Style) -> Style:

@@ -55,7 +55,8 @@ class Style(Struct, frozen=True):
     `shorthand` maps the name of a coordinate to its subscript in s_1 and c_12,
     `star` shows the mark of joint variables, and `stars` puts it on every symbol of
     these names; `decimal` writes 981/100 as 9.81 where that is exact, and with `digits` every number
-    as a decimal of up to so many significant digits.
+    as a decimal of up to so many significant digits, save with `fractions` a short one that comes to
+    no end: m/3.
 
     Letters of the textbook that would be taken for something else are set otherwise:
     `letters` maps their base, style and number of lower indices to another base; with `bold`
@@ -67,6 +68,7 @@ class Style(Struct, frozen=True):
     decimal: bool = False
     stars: frozenset[str] = frozenset()
     digits: int = 0
+    fractions: bool = False
     letters: Mapping[Sign, str] = field(default_factory=dict)
     bold: bool = False
 
@@ -89,6 +91,8 @@ class Style(Struct, frozen=True):
         if not self.digits or not (self.decimal or node.decimal):
             return False
         text = decimal_text(node.p, node.q)
+        if text is None and self.fractions and max(abs(node.p), node.q) < SHORT:
+            return False
         return text is None or len(text.replace(".", "").lstrip("-0")) > self.digits
 
     def base(self, node: Letter) -> str:
@@ -101,6 +105,9 @@ class Style(Struct, frozen=True):
         """Whether a symbol is printed with the mark of a joint variable."""
         return (node.star and self.star) or node.name in self.stars
 
+
+SHORT = 1000
+"""A fraction of whole numbers below this one is as easily read as a decimal."""
 
 PLAIN = Style()
 

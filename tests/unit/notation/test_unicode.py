@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 
+from dynsolve.notation.build import times
 from dynsolve.notation.printing import Style
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
@@ -192,6 +193,14 @@ def test_decimals_that_end_soon_are_not_rounded(text: str, shown: str) -> None:
     number = Number(value.numerator, value.denominator)
     assert to_unicode(number, style) == shown
     assert style.rounds(number) == (Fraction(shown) != value)
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"), [("1/3", "m/3"), ("0.1234567", "0.123457 m"), ("1/1001", "0.000999001 m")]
+)
+def test_beside_letters_a_short_fraction_stays_one(text: str, shown: str) -> None:
+    style = Style(decimal=True, digits=6, fractions=True)
+    assert to_unicode(times(Fraction(text), [(Symbol("m"), 1)], decimal=True), style) == shown
 
 
 def test_decimals_where_they_are_asked_for():

@@ -383,6 +383,13 @@ def test_numbers_are_decimals_where_one_is(written: str, digits: int | None, D: 
     assert solution.to_json()["results"]["D"] == [["13/6" if written == "1/6" else "2.5"]]
 
 
+@pytest.mark.parametrize(("length", "D"), [("l", "7/12 + 0.7 l²"), ("0.5", "0.758333")])
+def test_a_number_beside_letters_is_exact_where_its_fraction_is_short(length: str, D: str) -> None:
+    inertia = FRACTIONS.replace("mass: 8", "mass: 0.7").replace("1/6", "7/12").replace("1/2", length)
+    solution = dynsolve.solve(inertia)
+    assert to_unicode(solution.forms("D"), solution.style) == f"[[{D}]]"
+
+
 def test_half_of_a_whole_number_is_multiplied() -> None:
     solution = dynsolve.solve(FRACTIONS.replace("1/2", "1.0"))
     assert to_unicode(solution.forms("Kv1"), solution.style) == "4q̇₁²"
