@@ -6,6 +6,7 @@ The stages of one robot: those of the course that belong to it, and those of whi
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from itertools import product
 
 from msgspec import Struct
@@ -30,8 +31,7 @@ def heading_of(stage: Stage, robot: Robot) -> str:
 
 def asked_stages(questions: Questions) -> frozenset[Stage]:
     """The stages of which an exercise asks something."""
-    asked_for = [family for family in FAMILIES if family.stage.asked_for] if questions.asked else ()
-    found = {family.stage for family in asked_for if any(map(family.names, questions.asked))}
+    found = set(_stages_of_names(questions.asked))
     if questions.given & {"velocity", "acceleration"}:
         found.add(Stage.RATES)
     if questions.points or questions.task or any(OF_A_TASK in stage.needs for stage in found):
@@ -45,6 +45,14 @@ def asked_stages(questions: Questions) -> frozenset[Stage]:
     if questions.method is Method.NEWTON_EULER:
         found.add(Stage.NEWTON_EULER)
     return frozenset(found)
+
+
+@lru_cache(maxsize=64)
+def _stages_of_names(asked: frozenset[str]) -> frozenset[Stage]:
+    """The stages, beside those of the course, that these quantities are derived in."""
+    return frozenset(
+        family.stage for family in FAMILIES if family.stage.asked_for and any(map(family.names, asked))
+    )
 
 
 def stages_of(robot: Robot) -> tuple[Stage, ...]:
