@@ -185,6 +185,7 @@ class _Search:
     def __init__(self, robot: Robot, wanted: Sequence[Expr], held: Multipliers | None) -> None:
         self.robot = robot
         ring = search_ring(robot.ring, (), {}) if held else _search_ring(robot.ring, wanted)
+        ring = _splitting(robot.ring, wanted, ring)
         self.there = Transfer(robot.ring, ring)
         self.signs = assumed_signs(robot, self.there)
         self.special, self.of_rank = Special(self.signs), Special(self.signs)
@@ -309,6 +310,24 @@ def _search_ring(ring: Ring, wanted: Sequence[Expr]) -> Ring:
             turning[place] = (vector, offset + angle)
             others.append(ring_of(found.coordinates, replace(found.plan, turning=tuple(turning))))
         found = min(others, key=lambda other: sum(len(one) for one in map(Transfer(ring, other), wanted)))
+    return found
+
+
+def _splitting(ring: Ring, wanted: Sequence[Expr], found: Ring) -> Ring:
+    """The ring with half of a coordinate as an angle where that takes a sum apart: s₁ + s₁₂."""
+    there = Transfer(ring, found)
+    mixed = [
+        factor
+        for one in wanted
+        for factor, _ in trig_factors(there(one))
+        if sum(not found.diff(factor, k).is_zero for k in range(len(found.coordinates))) > 1
+    ]
+    for place, (vector, offset) in enumerate(found.plan.turning):
+        turning = [*found.plan.turning]
+        turning[place] = (tuple(rate / 2 for rate in vector), offset * Fraction(1, 2))
+        finer = ring_of(found.coordinates, replace(found.plan, turning=tuple(turning)))
+        if any(len(trig_factors(one)) > 1 for one in map(Transfer(found, finer), mixed)):
+            return finer
     return found
 
 
