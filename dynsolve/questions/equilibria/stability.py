@@ -264,6 +264,8 @@ class Curvature(Struct, frozen=True):
         leading = [minor(rest[:k]) for k in range(1, len(rest) + 1)]
         nonzero = tuple(dict.fromkeys(factor for one in leading for factor in signs.even_factors(one)))
         signs = signs.beside(nonzero=nonzero)
+        if nonzero and not self.may_be_held and _falls(minor, rest, signs):
+            return Point(values, Stability.UNSTABLE, neutral, nonzero=nonzero)
         left: list[Expr] = []
         for one in leading:
             sign = signs.beside(*(Bound(before) for before in left if not before.is_number)).open_part(one)
@@ -356,13 +358,17 @@ def _least(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
 
 def _there(matrix: Matrix, values: Values, zeros: Sequence[Expr]) -> Matrix:
     """A matrix at quarter turns where further expressions are 0, up to a positive factor."""
-    matrix = _put(matrix, values)
-    for zero in zeros:
-        if zero.is_zero:
-            continue
-        turn = turn_of(zero)
+    matrix, left = _put(matrix, values), list(zeros)
+    while left:
+        turns = {zero: turn for zero in left if (turn := turn_of(zero)) is not None}
+        zero = next((zero for zero, turn in turns.items() if turn.is_one_sided), left[0])
+        turn = turns.get(zero)
+        left.remove(zero)
         if turn is not None and turn.is_one_sided:
             matrix = _at_turn(matrix, turn)
+            left = [_at_turn(Matrix.column(one.ring, [one]), turn)[0, 0] for one in left]
+        elif zero.is_zero:
+            continue
         elif turn is not None and (line := _along_line(turn)) is not None:
             matrix = _at_line(matrix, *line)
         elif (square := square_of(zero)) is not None:

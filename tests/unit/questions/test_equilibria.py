@@ -1294,3 +1294,17 @@ def test_the_inertia_is_shown_only_where_equilibria_speak_of_it(problem: str, is
     solution = dynsolve.solve(f"gravity: [0, -g, 0]\n{problem}find: [equilibria]\n")
     shown = {step.id for step in leading(solution, solution.steps)}
     assert ("K" in shown) == is_shown and "equilibria" in shown
+
+
+@pytest.mark.parametrize(
+    ("energy", "unstable_if"),
+    [("k*sin(u) + c*sin(u)*sin(v)", ["2*c > k"]), ("m*g*sin(u) + k*cos(u)^2", ["2*k > g*m"])],
+)
+def test_beside_a_bound_of_its_case_nothing_is_stable_where_that_fails(
+    energy: str, unstable_if: list[str]
+) -> None:
+    """By hand: along sin u + sin v = 0 the energy is a downward parabola in sin u, greatest inside."""
+    model = "{coordinates: {u: revolute, v: revolute}, K: J*(u'^2 + v'^2)/2, P: " + energy + "}"
+    problem = f"model: {model}\nconstraints: [sin(u) + sin(v)]\nfind: [equilibria]\n"
+    (told,), *_ = dynsolve.solve(problem).to_json()["results"]["equilibria_stability"]
+    assert told == {"stability": "undecided", "unstable_if": unstable_if}
