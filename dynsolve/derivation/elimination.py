@@ -228,9 +228,8 @@ class ParameterSigns(Struct, frozen=True):
         """1 or -1 where it is known, else 0."""
         for sign in (1, -1):
             signed = factor * sign
-            if is_positive(signed) or any(
-                signed == bound.value and bound.is_strict for bound in self.assumed
-            ):
+            assumed = any(signed == bound.value and bound.is_strict for bound in self.assumed)
+            if assumed or is_positive(signed) or _is_quadratic_without_zeros(signed):
                 return sign
         if not self.assumed or factor.ring.depends_on_coordinates(factor):
             return 0
@@ -254,6 +253,26 @@ def is_more(value: Expr, bound: Bound) -> bool:
     times, rest = (Expr(value.ring, part) for part in divmod(value.poly, bound.value.poly))
     is_rest = is_positive(rest)
     return is_positive(times) and (is_rest or (rest.is_zero and bound.is_strict))
+
+
+def _is_quadratic_without_zeros(value: Expr) -> bool:
+    """Whether a value is a x² - b x + c of a parameter x, with 4a c > b²: m² g² - 2m g k h + k² (b² + h²)."""
+    ring, monomials = value.ring, value.poly.monoms()
+    for g in ring.generators:
+        if (
+            g.kind != "symbol"
+            or g.name not in ring.parameters
+            or {int(m[g.index]) for m in monomials} != {0, 1, 2}
+        ):
+            continue
+        parts = [ring.zero] * 3
+        for exponents, number in value.poly.to_dict().items():
+            plain = tuple(0 if k == g.index else e for k, e in enumerate(exponents))
+            parts[exponents[g.index]] += Expr(ring, ring.ctx.from_dict({plain: number}))
+        c, b, a = parts
+        if is_positive(a) and is_positive(4 * a * c - b * b):
+            return True
+    return False
 
 
 def _factored(value: Expr) -> tuple[bool, list[tuple[Expr, int]]]:

@@ -11,7 +11,7 @@ from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.explain.forms import ProductForms, leading_names, parallel_coordinates
-from dynsolve.notation.build import cost
+from dynsolve.notation.build import cost, split_sign
 from dynsolve.notation.tree import ZERO, Node, Relation
 from dynsolve.robot.model import Robot
 
@@ -41,9 +41,13 @@ class Inequalities:
                 if is_positive(shared):
                     value = trig_quotient(value, shared**exponent) or value
         left, right = self._apart(value)
-        squares = [ProductForms(self.compactor(ring)).form(one * one) for one in _squared(value)]
+        products = ProductForms(self.compactor(ring))
+        squares = [products.form(one * one) for one in _squared(value)]
+        side, product = split_sign(products.form(value))
         if squares and sum(map(cost, squares)) < cost(left) + cost(right):
             left, right = squares
+        elif cost(product) < cost(left) + cost(right):
+            left, right, sign = product, ZERO, sign if side > 0 else _TURNED.get(sign, sign)
         elif left == ZERO:
             left, right, sign = right, left, _TURNED.get(sign, sign)
         return Relation((left, right), (sign,))

@@ -1308,3 +1308,42 @@ def test_beside_a_bound_of_its_case_nothing_is_stable_where_that_fails(
     problem = f"model: {model}\nconstraints: [sin(u) + sin(v)]\nfind: [equilibria]\n"
     (told,), *_ = dynsolve.solve(problem).to_json()["results"]["equilibria_stability"]
     assert told == {"stability": "undecided", "unstable_if": unstable_if}
+
+
+ON_AN_ARC = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: a}]
+masses: [{mass: m, link: 1}]
+springs: [{energy: k*((a*cos(q1) - b)^2 + (a*sin(q1) - h)^2)/2}]
+find: [equilibria]
+"""
+ON_A_TURNING_CONE = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {phi: revolute, x: prismatic, th: revolute}
+  bodies: [{mass: m, at: [x*sin(th)*cos(phi), x*sin(th)*sin(phi), x*cos(th)]}]
+springs: [{stiffness: k, of: x, rest: a}]
+steady: {phi: W}
+find: [equilibria]
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "stable_if"),
+    [
+        # the curvature is that of -k a b cos q₁, times ((m g - k h)² + k² b²)/(k b)²
+        (ON_AN_ARC, [["cos(q1) > 0"]]),
+        # upright, at x = (k a - m g)/k, the curvature in θ is -m x (g + W² x)
+        (
+            ON_A_TURNING_CONE,
+            [
+                ["W**2*(m*g + k*a) > g*k", "k*(g + W**2*a) > m*g*W**2", "k > m*W**2"],
+                ["(m*g - k*a)*(g*k - W**2*(m*g - k*a)) > 0"],
+                ["g*k > W**2*(m*g + k*a)"],
+            ],
+        ),
+    ],
+)
+def test_stability_is_told_by_its_factors(problem: str, stable_if: list[list[str]]) -> None:
+    told = dynsolve.solve(problem).to_json()["results"]["equilibria_stability"]
+    assert [point["stable_if"] for case in told for point in case] == stable_if
