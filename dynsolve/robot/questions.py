@@ -182,8 +182,9 @@ class Load(Struct, frozen=True):
     """A force and a moment that act on link `link` from outside, at a point.
 
     `position` is the point in frame `link`, `force` and `moment` (3×1) are in the world, or
-    where `axes` (3×3) is given along these axes in frame `link`.  `point` is what the point
-    is called, where the exercise names it or it is the tip.
+    where `axes` (3×3) is given along these axes in frame `link`; `turns` are their rotation as
+    the problem writes it, none of a matrix.  `point` is what the point is called, where the
+    exercise names it or it is the tip.
     """
 
     link: int
@@ -193,6 +194,7 @@ class Load(Struct, frozen=True):
     axes: Matrix | None = None
     point: str = ""
     by_robot: bool = False
+    turns: tuple[tuple[str, Node], ...] = ()
 
 
 FOR_EVERY_Q = "Q(q)"

@@ -573,8 +573,8 @@ class _Stranger:
         }
         if self.chance(0.3):
             force["moment"] = [0, 0, "Mz"]
-        if self.chance(0.2):
-            force["in"] = "link"
+        if self.chance(0.3):
+            force["in"] = self.one(["link", "Rz(45deg)", "Ry(90deg) Rx(-30deg)"])
         if self.chance(0.2):
             force["by"] = "robot"
         self.file["forces"] = [force]

@@ -6,12 +6,14 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import vector
+from dynsolve.explain.kinematics import turned
 from dynsolve.explain.step import NOTED, Detail, Group, Step
 from dynsolve.explain.writing import agreeing, flat, is_small, listed, spong, sum_of
 from dynsolve.notation.template import formula
@@ -45,15 +47,24 @@ def _acting(forms: Forms, load: Load) -> Prose:
         at = (" at ", letters.o(load.link))
     elif not load.point:
         at = (" at ", flat(map(forms.of, load.position.entries)), f" in frame {load.link}")
-    along = "" if load.axes is None else f", along the axes of frame {load.link}"
-    if load.axes is not None and load.axes != load.axes.identity(load.axes.ring, 3):
-        along += " turned as given"
     told = listed(acting)
     if load.by_robot:
-        return (f"Link {load.link} exerts ", *told, *at, f"{along}.")
+        return (f"Link {load.link} exerts ", *told, *at, *_along(forms, load), ".")
     first, *others = told
     act = "act" if len(acting) > 1 else "acts"
-    return (opened(str(first)), *others, f" {act} on link {load.link}", *at, f"{along}.")
+    return (opened(str(first)), *others, f" {act} on link {load.link}", *at, *_along(forms, load), ".")
+
+
+def _along(forms: Forms, load: Load) -> Prose:
+    """Along the axes of which frame a force is given, and by what these are turned; nothing of the world."""
+    if load.axes is None:
+        return ()
+    if load.turns:
+        return (f", along the axes of frame {load.link} turned by ", turned(load.turns))
+    if load.axes == Matrix.identity(load.axes.ring, 3):
+        return (f", along the axes of frame {load.link}",)
+    columns = [flat(map(forms.of, column)) for column in load.axes.T.rows]
+    return (f", along axes that, seen from frame {load.link}, are ", *listed(columns))
 
 
 def steps(context: Context) -> Iterator[Step]:

@@ -125,4 +125,5 @@ def _load(values: CellValues, robot: Robot, parsed: ParsedLoad) -> Load | None:
     if parsed.link == len(robot.joints) and position.is_zero:
         called.append(TIP)
     point = called[0] if called else ""
-    return Load(parsed.link, position, force, moment, axes, point, parsed.by_robot)
+    turns = parsed.rotation.factors if parsed.rotation else ()
+    return Load(parsed.link, position, force, moment, axes, point, parsed.by_robot, turns)

@@ -117,3 +117,19 @@ def test_without_forces_from_outside_what_holds_is_g_alone_and_none_is_told() ->
 def test_nothing_but_0_holds_what_no_motor_drives() -> None:
     told = report(dynsolve.solve(SPRUNG), Format.TEXT).decode()
     assert "No motor drives q₁: its entry must be 0." in " ".join(told.split())
+
+
+@pytest.mark.parametrize(
+    ("axes", "told"),
+    [
+        ("link", "along the axes of frame 2."),
+        ("Rz(45deg) Rx(beta)", "along the axes of frame 2 turned by 𝐑_{z,45°} 𝐑_{x,β}."),
+        (
+            "[[0, -1, 0], [1, 0, 0], [0, 0, 1]]",
+            "along axes that, seen from frame 2, are (0, 1, 0), (-1, 0, 0)",
+        ),
+    ],
+)
+def test_the_axes_of_a_force_are_given(axes: str, told: str) -> None:
+    text = f"{ELBOW}forces: [{{link: 2, force: [F, 0, 0], in: {axes}}}]\nfind: [Q]\n"
+    assert told in " ".join(report(dynsolve.solve(text), Format.TEXT).decode().split())
