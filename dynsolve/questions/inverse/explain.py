@@ -375,6 +375,8 @@ def _needed(forms: InverseForms, step: Solved) -> Iterator[Node]:
     match step:
         case OneLine(_, cosine, sine, value) if not value.is_zero and (cosine.is_zero or sine.is_zero):
             divisor = cosine + sine
+        case TwoLines() if not step.is_rotation:
+            divisor = step.determinant
         case Length(_, divisor) | RootLength(_, divisor):
             pass
         case _:
@@ -627,13 +629,15 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     choices = _choices(forms, solving)
     is_free = forms.target is None and len(set(forms.when)) <= 1 and _is_every_choice(forms, choices)
     one, several = ("solution", "solutions") if forms.target is None else ("branch", "branches")  # of numbers
-    is_certain = _exist_together(forms.inverse_formulas, choices.values())
+    tested = names_in(*(side for when in forms.when for one in when for side in one.sides))
+    is_tested = not tested.isdisjoint(names)
+    is_certain = not is_tested and _exist_together(forms.inverse_formulas, choices.values())
     there_are = f"there are {'' if is_certain else 'at most '}{count} {several}"
     there_are = there_are if count > 1 else f"there is one {one}"
     if is_free and choices:
         two = "{q} has two values: {there_are}."
-        gives = "every choice gives a solution" if is_certain else "every choice that exists gives a solution"
-        each = f"{{q}} have two values each, and {gives}: {{there_are}}."
+        gives = f"every choice {'gives' if is_certain else 'that exists gives'} a solution"
+        each = f"{{q}} have two values each{'' if is_tested else f', and {gives}'}: {{there_are}}."
         chosen = listed([Symbol(step.coordinate) for step in choices.values()])
         together = say(each if len(choices) > 1 else two, q=chosen, there_are=there_are)
     else:

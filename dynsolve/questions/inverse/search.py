@@ -48,7 +48,7 @@ from dynsolve.questions.inverse.solving import (
     relations,
     solves_task,
 )
-from dynsolve.questions.inverse.subproblems import Remainder, Solved, TwoLines, recognized
+from dynsolve.questions.inverse.subproblems import Length, Remainder, Solved, TwoLines, recognized
 
 MOST_SYSTEMS = 40
 """So many systems are kept; those that come later are turned more often."""
@@ -127,9 +127,9 @@ def search(
 def _effort(solved: Solved) -> tuple[int, bool, int]:
     """What a step costs its reader; a turned equation counts as two terms more.
 
-    An angle that is always given comes before one that is free somewhere.
+    What is always given comes before what is free somewhere.
     """
-    may_be_free = isinstance(solved, TwoLines) and solved.may_be_free
+    may_be_free = isinstance(solved, TwoLines | Length) and solved.may_be_free
     return solved.rank, may_be_free, solved.size + 2 * sum(turns(e.origin) for e in solved.equations)
 
 

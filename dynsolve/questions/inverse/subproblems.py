@@ -24,6 +24,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.factors import is_never_zero, is_positive
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.existence import fourier_parts
@@ -94,6 +95,19 @@ def quadratic(expr: Expr, unknowns: Unknowns) -> Quadratic | None:
 Numbers = Callable[[Expr], float]
 """The value of an expression where everything known has a number."""
 
+
+def holds_in_general(value: Expr) -> bool:
+    """Whether parameters alone stand in what is not 0, as in cos α: it is 0 for special ones at most."""
+    ring = value.ring
+    given = {*ring.names, *ring.plan.signed}
+    used = [ring.generators[index] for index in value.used]
+    return all(
+        g.name not in given if g.kind == "symbol" else given.isdisjoint(names_of(g.angle))
+        for g in used
+        if g.kind in ("symbol", "sin", "cos")
+    )
+
+
 NEARLY = 1e-9
 """What rounding may make of 0, relative to the size of what was added up."""
 
@@ -112,7 +126,7 @@ class TwoLines(Struct, frozen=True):
         """A vector that is turned before other lines, and these before lines that may be parallel."""
         if self.is_rotation:
             return 0
-        return 1 if is_never_zero(self.determinant) else 6
+        return 1 if holds_in_general(self.determinant) else 6
 
     @property
     def is_rotation(self) -> bool:
@@ -122,9 +136,9 @@ class TwoLines(Struct, frozen=True):
 
     @property
     def may_be_free(self) -> bool:
-        """Whether a vector is turned that may have no length, A² + B²."""
+        """Whether a vector is turned that may have no length, A² + B², or lines may be parallel."""
         a, b, _ = self.first
-        return self.is_rotation and not is_positive(a * a + b * b)
+        return not (is_positive(a * a + b * b) if self.is_rotation else is_never_zero(self.determinant))
 
     @property
     def determinant(self) -> Expr:
@@ -194,7 +208,14 @@ class Length(Struct, frozen=True):
     @property
     def rank(self) -> int:
         """At once where nothing is divided by that may vanish; of two equations after a vector."""
-        return len(self.equations) - 1 if is_never_zero(self.factor) else 6
+        if self.may_be_free:
+            return 1 if holds_in_general(self.factor) else 6
+        return len(self.equations) - 1
+
+    @property
+    def may_be_free(self) -> bool:
+        """Whether M may be 0."""
+        return not is_never_zero(self.factor)
 
     @property
     def size(self) -> int:

@@ -83,3 +83,17 @@ def test_columns_of_a_rotation_are_at_right_angles_in_what_must_hold() -> None:
 dh: [{theta: q1*, alpha: -90deg}, {theta: q2*, alpha: 90deg, d: b}, {theta: q3*, a: c}]
 task: pose"""
     assert "z - r₃₁ c = 0, x r₁₃ + y r₂₃ + z r₃₃ = 0, x =" in told(wrist)
+
+
+def test_what_special_parameters_alone_make_0_is_divided_by_before_a_square_has_two_values() -> None:
+    """r₃ = d₂ cos α says which sign d₂ has, and the sine of q₁ comes without its root, too."""
+    text = told("dh: [{theta: q1*, a: b, alpha: alpha}, {d: d2*}]")
+    assert "d₂ = r₃/cos(α)" in text and "There is one solution." in text
+    assert "The solution needs cos(α) ≠ 0." in text
+    text = told("dh: [{theta: 0, alpha: alpha}, {theta: q1*, a: l}]")
+    assert "q₁ = atan2(r₂/(l cos(α)), r₁/l) Note: This needs cos(α) ≠ 0." in text
+
+
+def test_of_two_values_that_are_put_into_conditions_not_both_are_said_to_hold() -> None:
+    text = told("dh: [{theta: 60deg, alpha: 90deg}, {d: d1*}, {theta: q2*, a: l, alpha: 90deg}]")
+    assert "q₂ has two values: there are at most 2 solutions." in text
