@@ -56,7 +56,8 @@ CAPTION = "The bodies at some values of the coordinates; not to scale. Blue arro
 RODS = "A thick line joins points whose distance does not change."
 LINES = "A thin grey line is the way along which something slides."
 BOXES = "A box is a body that turns, or one that only slides."
-DISKS = "A disk turns in proportion to a length; the point in which it touches its line is at rest."
+DISKS = "A disk is a body that turns as a length changes."
+ROLLING = "Where a disk touches a black line, it does not slide on it."
 BALLS = "A ball is a point mass."
 ZERO = "An angle is 0 at its dashed line."
 
@@ -114,6 +115,7 @@ def _caption(pose: PlacedPose, labels: Sequence[Label]) -> str:
         (LINES, any(piece.kind is Kind.SLIDE for piece in pose.pieces)),
         (BOXES, any(_axes(body, pose) and not pose.rolls(body) for body in pose.robot.bodies)),
         (DISKS, any(pose.rolls(body) for body in pose.robot.bodies)),
+        (ROLLING, any(pose.touches(body) for body in pose.robot.bodies)),
         (BALLS, bool(balls) and all(body.is_point for body in balls)),
         (ZERO, any(label.kind == "variable" for label in labels)),
     )
@@ -206,16 +208,17 @@ def _body(body: Body, pose: PlacedPose) -> Sequence[Path]:
         return (Path(paths.circle(at, _BALL), paths.WHITE, 1.2, paths.BLACK),)
     rolls = pose.rolls(body)
     if rolls is not None:
-        return tuple(_disk(center, axes, *rolls, view))
+        return tuple(_disk(center, axes, *rolls, view, touches=pose.touches(body)))
     return block(center, axes, (_HALF,) * 3, view, view.up, BODY).paths
 
 
-def _disk(center: Vector, axes: Rotation, spin: Vector, speed: Vector, view: View) -> Iterator[Path]:
-    """A disk with a spoke, and the line that it touches in the point that is at rest."""
+def _disk(
+    center: Vector, axes: Rotation, spin: Vector, speed: Vector, view: View, *, touches: bool
+) -> Iterator[Path]:
+    """A disk with a spoke, and the line on which it rolls, where it `touches` one."""
     at, radius = view.point(center), _radius(spin, speed)
-    to_rest = scale(cross(spin, speed), 1.0 / dot(spin, spin))
-    if length(speed) > NEAR:
-        ground = add(center, to_rest)
+    if touches:
+        ground = add(center, scale(cross(spin, speed), 1.0 / dot(spin, spin)))
         ends = (view.point(along(ground, unit(speed), side * 2.5 * radius)) for side in (-1.0, 1.0))
         yield Path(paths.line(*ends), paths.BLACK, 2.0)
     rim = paths.ellipse(at, *half_axes(unit(spin), view, radius * view.size))

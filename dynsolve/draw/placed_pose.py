@@ -17,7 +17,7 @@ from random import Random
 from msgspec import Struct
 
 from dynsolve.algebra.angles import name_alone, names_of
-from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.algebra.rationals import rational_sqrt
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.mechanism import angular_jacobian, orientation, position_jacobian
@@ -274,12 +274,32 @@ class PlacedPose(Struct, frozen=True):
 
     def rolls(self, body: Body) -> tuple[Vector, Vector] | None:
         """ω and v of a body for the first length that turns it; None where none does."""
-        robot = self.robot
-        spins, moves = angular_jacobian(robot, body).T.rows, position_jacobian(robot, body.center).T.rows
-        for q, spin, moved in zip(robot.coordinates, spins, moves, strict=True):
-            if q.type is JointType.PRISMATIC and not all(entry.is_zero for entry in spin):
-                return self.vector(spin), self.vector(moved)
-        return None
+        spins, moves, k = _rolling(self.robot, body)
+        if k is None:
+            return None
+        return self.vector(spins.column_at(k).entries), self.vector(moves.column_at(k).entries)
+
+    def touches(self, body: Body) -> bool:
+        """Whether a disk rolls on a line, on which it does not slide, whatever moves.
+
+        That point is at rest; or another coordinate moves the line: a length that does not turn the body
+        and moves it along one direction, or what turns the body and its way alike.
+        """
+        robot, ring = self.robot, self.robot.ring
+        spins, moves, k = _rolling(robot, body)
+        if k is None or length(self.vector(moves.column_at(k).entries)) < NEAR:
+            return False
+        spin, way = spins.column_at(k), moves.column_at(k)
+        to_line, square = cross(spin, way), ring.dot(spin.entries, spin.entries)
+        for j in range(robot.n):
+            turned, moved = spins.column_at(j), moves.column_at(j)
+            if (moved.scale(square) + cross(turned, to_line)).is_zero:
+                continue
+            carried = Matrix.column(ring, [ring.diff(entry, j) for entry in way.entries])
+            is_straight = not any(map(ring.depends_on_coordinates, moved.entries))
+            if j == k or carried != cross(turned, way) or (turned.is_zero and not is_straight):
+                return False
+        return True
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
@@ -298,6 +318,13 @@ class PlacedPose(Struct, frozen=True):
         """The columns of a rotation."""
         x, y, z = (self.vector(turned.column_at(k).entries, **changed) for k in range(3))
         return x, y, z
+
+
+def _rolling(robot: Robot, body: Body) -> tuple[Matrix, Matrix, int | None]:
+    """J_ω and J_v of a body, and the place of the first length that turns it."""
+    spins, moves = angular_jacobian(robot, body), position_jacobian(robot, body.center)
+    slides = (k for k, q in enumerate(robot.coordinates) if q.type is JointType.PRISMATIC)
+    return spins, moves, next((k for k in slides if not spins.column_at(k).is_zero), None)
 
 
 def placed_pose(problem: Problem) -> PlacedPose:

@@ -10,7 +10,17 @@ from random import Random
 import pytest
 
 from dynsolve.draw import draw, is_drawn
-from dynsolve.draw.placed_bodies import BALLS, BOXES, DAMPERS, DISKS, NOT_DRAWN, RODS, SPRINGS, placed_scene
+from dynsolve.draw.placed_bodies import (
+    BALLS,
+    BOXES,
+    DAMPERS,
+    DISKS,
+    NOT_DRAWN,
+    RODS,
+    ROLLING,
+    SPRINGS,
+    placed_scene,
+)
 from dynsolve.draw.placed_pose import Kind, Piece, Place, placed_pose, ways
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.poses import NO_DAMPERS, OTHER_SPRINGS, joint_springs
@@ -175,9 +185,40 @@ def test_a_disk_touches_its_line_where_it_is_at_rest() -> None:
     (body,) = problem.robot.bodies
     pose = placed_pose(problem)
     rolls = pose.rolls(body)
-    assert rolls is not None and DISKS in placed_scene(problem).caption
+    assert rolls is not None and {DISKS, ROLLING} <= said_of_disks(problem)
     to_rest = scale(cross(*rolls), 1.0 / dot(rolls[0], rolls[0]))
     assert to_rest == pytest.approx((0.0, -pose.values["r"], 0.0))
+
+
+def said_of_disks(problem: Problem) -> set[str]:
+    return {each for each in (DISKS, ROLLING) if each in placed_scene(problem).caption}
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "at", "turn", "rolls"),
+    [
+        ("x: prismatic, y: prismatic", "[x, y, 0]", "y/R", True),  # on a rope that x moves
+        ("x: prismatic, s: prismatic", "[x + s*cos(alpha), -s*sin(alpha), 0]", "-s/R", True),  # a wedge
+        (
+            "q: revolute, s: prismatic",
+            "[s*cos(q) - R*sin(q), s*sin(q) + R*cos(q), 0]",
+            "q - s/R",
+            True,
+        ),  # beam
+        ("q: revolute, s: prismatic", "[s*cos(q) - R*sin(q), s*sin(q) + R*cos(q), 0]", "-s/R", False),
+        ("q: revolute, s: prismatic", "[l*sin(q), -l*cos(q), 0]", "q - s/R", False),  # a pulley
+        ("x: prismatic, q: revolute", "[x + l*sin(q), -l*cos(q), 0]", "q - x/R", False),  # no floor there
+        ("x: prismatic, q: revolute", "[x + l*sin(q), -l*cos(q), 0]", "-x/R", False),
+        ("x: prismatic", "[x, 0, x]", "[{by: x/R, about: [1, 0, 0]}]", False),  # a screw
+    ],
+)
+def test_a_disk_touches_a_line_on_which_it_does_not_slide(
+    coordinates: str, at: str, turn: str, rolls: bool
+) -> None:
+    """The line may move; where the disk slides on any, none is drawn and none is told."""
+    text = f"model:\n  coordinates: {{{coordinates}}}\n  bodies:\n    - {{mass: m, at: {at}, turn: {turn}}}"
+    problem = read_problem(f"{text}\ngravity: [0, -g, 0]".encode(), "disk.yaml")
+    assert said_of_disks(problem) == ({DISKS, ROLLING} if rolls else {DISKS})
 
 
 def test_a_pose_keeps_the_constraints() -> None:
