@@ -82,8 +82,8 @@ class Forms:
     @cached_property
     def compactor(self) -> Compactor:
         """The compactor of this robot's ring."""
-        typed = self.robot.decimals
-        return Compactor(self.robot.ring, *self.collecting, decimal=self._decimal, typed=typed)
+        robot, of = self.robot, self.collecting
+        return Compactor(robot.ring, *of, decimal=self._decimal, typed=robot.decimals, spelled=robot.sums)
 
     @property
     def collecting(self) -> tuple[list[str], list[frozenset[str]]]:
@@ -97,7 +97,7 @@ class Forms:
             found = self._make(name)
             quantity = quantities(self.robot).of_rule(name)
             if quantity is not None and quantity.family in (families.P_BODY, families.P):
-                found = _without_minus(found)
+                found = _without_minus(found, self.robot.sums)
             elif quantity is not None and quantity.family in _ENERGIES:
                 found = _with_squares_first(_without_minus(number_in_front(found)), self.robot.ring.names)
             self._made[name] = found
@@ -267,13 +267,13 @@ class Forms:
         return form
 
 
-def _without_minus(node: Node) -> Node:
-    """An energy that begins with no minus where a sum in it can take that: -½ (a - b) q̇² is ½ (b - a) q̇²."""
+def _without_minus(node: Node, spelled: Sequence[Node] = ()) -> Node:
+    """An energy without a minus that a sum, if not `spelled`, can take: -½ (a - b) q̇² is ½ (b - a) q̇²."""
     if not (isinstance(node, Negative) and isinstance(node.argument, Product)):
         return node
     factors = node.argument.factors
     for k, factor in enumerate(factors):
-        if isinstance(factor, tree.Sum):
+        if isinstance(factor, tree.Sum) and factor not in spelled:
             opposite = [_without_minus(negated(term)) for term in factor.terms]
             terms = sorted(opposite, key=lambda term: isinstance(term, Negative))
             if not isinstance(terms[0], Negative):

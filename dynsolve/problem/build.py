@@ -6,15 +6,17 @@ which axes.  What is wrong is reported at its place; nothing is built of it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 
 from msgspec.structs import replace
 
+from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation import text
+from dynsolve.notation.build import negated, split_sign, times, total
 from dynsolve.notation.characters import split
-from dynsolve.notation.tree import Number, walk
+from dynsolve.notation.tree import Negative, Node, Number, Product, Quotient, Sum, Symbol, walk
 from dynsolve.problem.bodies import ParsedShape
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Record
@@ -87,6 +89,7 @@ def build_robot(
         from dynsolve.problem.acting import actions
 
         robot = replace(robot, actions=actions(values, parsed.acting))
+    robot = replace(robot, sums=(*_deflections(robot), *_differences(parsed.cells, has_decimals)))
     robot = with_questions(values, robot, parsed.questions, points, asked, parsed.normals is not None)
     robot = _with_candidates(values, parsed, robot)
     return None if faults.errors else robot
@@ -103,6 +106,41 @@ def _decimals(cell: Cell) -> frozenset[Fraction]:
     """The decimals of a cell that are not whole."""
     numbers = (node for node in walk(cell.tree) if isinstance(node, Number))
     return frozenset(Fraction(node.p, node.q) for node in numbers if node.q != 1)
+
+
+def _deflections(robot: Robot) -> Iterator[Sum]:
+    """The differences in what stores energy: of what it acts along first, x₂ - x₁ - δ."""
+    form = Compactor(robot.ring, decimal=robot.has_decimals).form
+    for act in robot.actions.stored:
+        for one, other in act.differences:
+            deflection = total([form(one), negated(form(other))])
+            if isinstance(deflection, Sum):
+                yield deflection
+
+
+def _differences(cells: Iterable[Cell], decimal: bool) -> Iterator[Sum]:
+    """The differences of letters, numbers and multiples of letters in cells, as they are printed."""
+    for node in walk(*(cell.tree for cell in cells)):
+        if isinstance(node, Sum) and any(isinstance(term, Negative) for term in node.terms):
+            terms = [_multiple(term, decimal) for term in node.terms]
+            printed = total([term for term in terms if term is not None])
+            if None not in terms and isinstance(printed, Sum):
+                yield printed
+
+
+def _multiple(term: Node, decimal: bool) -> Node | None:
+    """A letter, a number or a multiple of a letter as it is printed; None of anything else."""
+    sign, inner = split_sign(term)
+    match inner:
+        case Number(p, q):
+            return times(Fraction(sign * p, q), (), decimal=decimal)
+        case Symbol(name):
+            return times(sign, [(Symbol(name), 1)])
+        case Product((Number(p, q), Symbol(name))):
+            return times(Fraction(sign * p, q), [(Symbol(name), 1)], decimal=decimal)
+        case Quotient(Symbol(name), Number(p, q)):
+            return times(Fraction(sign * q, p), [(Symbol(name), 1)], decimal=decimal)
+    return None
 
 
 def _check_alike(faults: Faults, parsed: ParsedFile) -> None:

@@ -26,7 +26,7 @@ from msgspec.structs import asdict, astuple, replace
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.notation.tree import Function, Node
+from dynsolve.notation.tree import Function, Node, Sum
 from dynsolve.robot.actions import Parameter, Values
 from dynsolve.robot.questions import Questions
 from dynsolve.robot.shapes import Density, Shape
@@ -244,6 +244,11 @@ class Act(Struct, frozen=True):
         """(x, k) where it acts along a linear form x of the coordinates with a coefficient k, as drawn."""
         return None
 
+    @property
+    def differences(self) -> tuple[tuple[Expr, Expr], ...]:
+        """(a, b) of each difference a - b that is written like that wherever it is a factor."""
+        return ()
+
     def functions(self, robot: Robot) -> tuple[Function, ...]:
         """Functions of the rates in its force, which jump: they stand in none of its values."""
         return ()
@@ -362,7 +367,7 @@ class Robot(Struct, frozen=True):
     what the exercise asks around this model, `actions` what acts beside gravity.  Without joints the
     bodies are given by their positions, or `given` stands in their place.  `has_decimals` says that numbers
     were written as 0.3, and not as 3/10; where masses are letters, a half of a letter is none: 0.5 l.
-    `decimals` are the numbers with decimals as they were written.
+    `decimals` are the numbers with decimals as they were written, `sums` those that are factors as they are.
     """
 
     ring: Ring
@@ -381,6 +386,7 @@ class Robot(Struct, frozen=True):
     base_turns: AxisTurns = ()
     has_decimals: bool = False
     decimals: frozenset[Fraction] = frozenset()
+    sums: tuple[Sum, ...] = ()
 
     @property
     def has_table(self) -> bool:

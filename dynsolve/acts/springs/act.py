@@ -45,6 +45,11 @@ class Spring(Stored, frozen=True):
         """(x, k)"""
         return self.of, self.stiffness
 
+    @property
+    def differences(self) -> tuple[tuple[Expr, Expr], ...]:
+        """x - rest"""
+        return ((self.of, self.rest),)
+
     def parameters(self, robot: Robot) -> Iterator[Parameter]:
         """A stiffness, where the spring is relaxed, and x, as far as that is an angle or a length."""
         x = measured_along(robot, self.of)

@@ -11,7 +11,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.writing import measured
 from dynsolve.notation.build import negated, total
-from dynsolve.notation.tree import Node, Power, Sum, equation, walk
+from dynsolve.notation.tree import Node, equation
 from dynsolve.robot.model import Stored
 
 HINT = "Half the stiffness times the square of the deflection of each spring from its rest."
@@ -36,15 +36,8 @@ def why(springs: Sequence[Stored]) -> str:
 
 
 def term(context: Context, spring: Stored) -> Node | None:
-    """½ k (x - rest)², the deflection with the terms in the order that they have in the sum of all."""
+    """½ k (x - rest)²"""
     if not isinstance(spring, Spring):
         return None
-    squares = (one for one in walk(context.form("Ps")) if isinstance(one, Power))
-    sums = [one.base for one in squares if isinstance(one.base, Sum)]
-    for sign in (1, -1):
-        shown = context.show((spring.of - spring.rest) * sign)
-        for base in sums:
-            if isinstance(shown, Sum) and set(base.terms) == set(shown.terms):
-                return half_square(context.show(spring.stiffness), base)
     stretch = total([context.show(spring.of), negated(context.show(spring.rest))])
     return half_square(context.show(spring.stiffness), stretch)

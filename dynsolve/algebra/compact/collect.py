@@ -179,13 +179,15 @@ class Collector:
         """Whether a sum reads better with its sign turned: more minus than plus, or as many and one first.
 
         Of as many a coordinate counts as first, d - l/2 and not l/2 - d; a sum with angles stays as
-        it is, c₂ - a c₁ s₂.
+        it is, c₂ - a c₁ s₂, and one of a number and parameters, r - 0.1 or 0.1 - r.
         """
         negative = sum(f < 0 for f in poly.values())
         if 2 * negative != len(poly):
             return 2 * negative > len(poly)
-        angles = any(self.atoms.ranks[atom][0] >= Rank.TRIG for mono in poly for atom, _ in mono)
-        return not angles and self.starts_negative(poly)
+        highest = max(self.atoms.ranks[atom][0] for mono in poly for atom, _ in mono)
+        if highest >= Rank.TRIG or (() in poly and highest is Rank.PARAMETER):
+            return False
+        return self.starts_negative(poly)
 
     def starts_negative(self, poly: Polynomial) -> bool:
         """Whether the first term has a minus, or the first in which a coordinate stands and no rate."""

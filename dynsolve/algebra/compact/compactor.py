@@ -64,6 +64,7 @@ class Compactor:
     mentions them; `parallel` are groups of coordinates that turn about parallel axes;
     `decimal` says that numbers are decimals, which are not drawn out of sums, unless that leaves those
     that were `typed`;
+    `spelled` are sums as they are written wherever they are a factor;
     `angles_outside` that masses are never collected outside sines and cosines; from `large` terms
     on one way of collecting is tried and not two.
 
@@ -85,6 +86,7 @@ class Compactor:
         *,
         decimal: bool = False,
         typed: Collection[Rational] = (),
+        spelled: Collection[tree.Sum] = (),
         angles_outside: bool = False,
         large: int = LARGE,
     ) -> None:
@@ -93,6 +95,7 @@ class Compactor:
         self._atoms = RingAtoms(ring, leading, self._groups, self.form)
         self.collector = Collector(self._atoms.table, decimal=decimal, typed=typed)
         self._proof = Proof(ring)
+        self._spelled = spelled
         self._angles_outside = angles_outside
         self._large = large
         # The entries of D and C come again in the steps and in τ; a 7R arm would take a sixth longer without.
@@ -117,7 +120,7 @@ class Compactor:
         return found
 
     def _collected(self, text: str) -> Node:
-        return in_one_spelling(self._by_rates(self._atoms.terms(text)))
+        return in_one_spelling(self._by_rates(self._atoms.terms(text)), self._spelled)
 
     def matrix(self, matrix: Matrix) -> tree.Matrix:
         """The compact trees of a matrix's entries."""

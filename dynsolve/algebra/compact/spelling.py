@@ -8,7 +8,7 @@ stands for all, with a minus in front where the others had the opposite sign.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from operator import is_
 
 from dynsolve.notation.build import negated, split_sign, total
@@ -26,15 +26,17 @@ from dynsolve.notation.tree import (
 )
 
 
-def in_one_spelling(node: Node) -> Node:
+def in_one_spelling(node: Node, given: Iterable[Sum] = ()) -> Node:
     """A formula whose factors that are the same sum up to sign are spelled like the first of them.
+
+    What is `given`, as a file has it, stands before the first.
 
     >>> from dynsolve.notation.text import read
     >>> from dynsolve.notation.unicode import to_unicode
     >>> to_unicode(in_one_spelling(read("2*(w*d + a*u)*x + (a*u + w*d)*y - (e - b)*z + (b - e)^2*v").tree))
     '2(w d + a u) x + (w d + a u) y - (e - b) z + (e - b)² v'
     """
-    return _Speller().spelled(node)
+    return _Speller(given).spelled(node)
 
 
 class _Speller:
@@ -43,8 +45,10 @@ class _Speller:
     It knows the sums by their terms, each a sign and the rest.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, given: Iterable[Sum]) -> None:
         self._sums: dict[frozenset[tuple[int, Node]], Sum] = {}
+        for one in given:
+            self._like_the_first(one)
         self._done: dict[int, Node] = {}
 
     def spelled(self, node: Node) -> Node:

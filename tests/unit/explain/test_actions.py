@@ -36,7 +36,7 @@ def step(id: str, problem: str = ACTING):
 @pytest.mark.parametrize(
     ("id", "formula"),
     [
-        ("Ps", "P_s = ½ k (q₂ - δ - q₁)²"),
+        ("Ps", "P_s = ½ k (q₂ - q₁ - δ)²"),
         ("P", "𝒫 = P₁ + P₂ + P_s = -Σᵢ₌₁² mᵢ 𝐠₀ᵀ 𝐫_ci + P_s"),
         ("Km", "K_m = Σᵢ₌₁² ½ I_mi (k_ri q̇ₖ + 𝐳ᵀ 𝛚_link)²"),
         ("friction", "τ_fk = ∂ℛ/∂q̇ₖ + f_ck sgn(q̇ₖ)"),

@@ -344,8 +344,8 @@ def test_constant_forms_are_the_same_number(degrees: int, powers: dict[int, int]
     ("spring", "force"),
     [
         ("{stiffness: 250, of: z, rest: 0.4}", "250(z - 0.4)"),
-        ("{stiffness: k, of: z - 0.05*y, rest: z0}", "-k (z₀ - z + 0.05 y)"),
-        ("{stiffness: k, of: y - 0.3*z}", "0.3 k (0.3 z - y)"),
+        ("{stiffness: k, of: z - 0.05*y, rest: z0}", "k (z - 0.05 y - z₀)"),
+        ("{stiffness: k, of: y - 0.3*z}", "-0.3 k (y - 0.3 z)"),
         ("{energy: 0.15*k*(z - 0.35)^4}", "0.6 k (z - 0.35)³"),
         ("{energy: 0.15*k*(z - l)^2}", "0.3 k (z - l)"),
     ],
@@ -355,6 +355,26 @@ def test_a_decimal_is_drawn_out_of_a_length_where_that_leaves_what_was_typed(spr
     problem = read_problem(f"{slides}springs: [{spring}]\n")
     g = Forms(problem.robot, derive(problem.robot))("g")
     assert isinstance(g, Matrix) and to_unicode(g.rows[0][0]) == force
+
+
+@pytest.mark.parametrize("arm", ["R - 0.1", "0.1 - R", "a - b", "b - a", "b - 0.7 a"])
+def test_a_difference_is_written_as_it_was_typed_wherever_it_is_a_factor(arm: str) -> None:
+    typed = arm.replace("0.7 ", "0.7*")
+    body = f"{{mass: m, at: [({typed})*sin(theta), -({typed})*cos(theta), 0]}}"
+    problem = read_problem(
+        f"gravity: [0, -g, 0]\nmodel: {{coordinates: {{theta: revolute}}, bodies: [{body}]}}\n"
+    )
+    forms = Forms(problem.robot, derive(problem.robot))
+    assert to_unicode(forms("P")) == f"-m g ({arm}) cos(θ)"
+    assert to_unicode(forms("g")) == f"[[m g ({arm}) sin(θ)]]"
+    assert to_unicode(forms("D")) == f"[[m ({arm})²]]"
+
+
+def test_a_number_beside_a_parameter_takes_the_sign_that_saves_a_minus() -> None:
+    mass = "{mass: m, center: [-0.1, 0, 0], link: 1}"
+    problem = read_problem(f"gravity: [0, -g, 0]\ndh: [{{theta: q1*, a: R}}]\nmasses: [{mass}]\n")
+    g = Forms(problem.robot, derive(problem.robot))("g")
+    assert to_unicode(g) == "[[m g (R - 0.1) cos(q₁)]]"
 
 
 @pytest.mark.parametrize(
