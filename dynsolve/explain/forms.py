@@ -109,11 +109,7 @@ class Forms:
 
     def of(self, value: Expr | RationalExpr | Matrix | FractionMatrix) -> Node:
         """The compact tree of any value of this robot's ring."""
-        if isinstance(value, RationalExpr):
-            return self._products.fraction(value)
-        if isinstance(value, FractionMatrix):
-            return self._products.matrix(value)
-        return self.compactor.matrix(value) if isinstance(value, Matrix) else self.compactor.form(value)
+        return self._products.of(value)
 
     @cached_property
     def _products(self) -> ProductForms:
@@ -414,6 +410,14 @@ class ProductForms:
         self.compactor = compactor
         self.decimal = decimal
         self.ring = compactor.ring
+
+    def of(self, value: Expr | RationalExpr | Matrix | FractionMatrix) -> Node:
+        """The tree of any value of the ring, with products in fractions alone."""
+        if isinstance(value, RationalExpr):
+            return self.fraction(value)
+        if isinstance(value, FractionMatrix):
+            return self.matrix(value)
+        return self.compactor.matrix(value) if isinstance(value, Matrix) else self.compactor.form(value)
 
     def form(self, expr: Expr) -> Node:
         """The shorter of the product of an expression's factors and its compact form."""

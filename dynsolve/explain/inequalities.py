@@ -11,7 +11,7 @@ from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.explain.forms import ProductForms, leading_names, parallel_coordinates
-from dynsolve.notation.build import cost, split_sign
+from dynsolve.notation.build import cost
 from dynsolve.notation.tree import ZERO, Node, Relation
 from dynsolve.robot.model import Robot
 
@@ -43,11 +43,13 @@ class Inequalities:
         left, right = self._apart(value)
         products = ProductForms(self.compactor(ring))
         squares = [products.form(one * one) for one in _squared(value)]
-        side, product = split_sign(products.form(value))
+        product, opposite = map(products.form, (value, -value))
         if squares and sum(map(cost, squares)) < cost(left) + cost(right):
             left, right = squares
-        elif cost(product) < cost(left) + cost(right):
-            left, right, sign = product, ZERO, sign if side > 0 else _TURNED.get(sign, sign)
+        elif min(cost(product), cost(opposite)) < cost(left) + cost(right):
+            left, right = product, ZERO
+            if cost(opposite) < cost(product):
+                left, sign = opposite, _TURNED.get(sign, sign)
         elif left == ZERO:
             left, right, sign = right, left, _TURNED.get(sign, sign)
         return Relation((left, right), (sign,))

@@ -108,6 +108,8 @@ class Compactor:
         """The compact tree of an expression; its plain form where that is not equal to its value."""
         if expr.is_zero:
             return ZERO
+        if expr.ring is not self.ring:
+            raise ValueError("in another ring the same generators stand for something else")
         key = str(expr.poly)
         found = self._forms.get(key)
         if found is None:

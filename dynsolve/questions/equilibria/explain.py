@@ -15,7 +15,7 @@ from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import Forms
+from dynsolve.explain.forms import Forms, ProductForms
 from dynsolve.explain.given import in_units
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
 from dynsolve.explain.writing import (
@@ -415,7 +415,7 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
     if robot.questions.constraints and not steady:
         told, more = _of_constrained(told, all(found.points))
         why = say(_CONSTRAINED_ENERGY, curved=_CURVED) if told else ()
-        lines = tuple(line for point, place in told for line in _along(context, point, place))
+        lines = tuple(line for point, place in told for line in _along(shown, point, place))
     else:
         curvature = context.show(linearization.curvature(robot, forces))
         working = (*working, *([equation(second, curvature)] if is_small(curvature) else []))
@@ -467,19 +467,20 @@ _CONSTRAINED_ENERGY = (
 _CURVED = formula("𝐙ᵀ (∂(𝐠 - 𝐀_cᵀ 𝛌)/∂𝐪) 𝐙")
 
 
-def _along(context: Context, point: Point, place: Prose) -> Iterator[Line]:
+def _along(shown: EquilibriaForms, point: Point, place: Prose) -> Iterator[Line]:
     """Z, λ and the matrix between Z at an equilibrium, where they can be read."""
     if point.along is None:
         return
     found = point.along
-    free, held, second = (context.forms.of(one) for one in (found.free, found.multipliers, found.second))
+    products = ProductForms(shown.compactor(found.free.ring))
+    free, held, second = map(products.of, (found.free, found.multipliers, found.second))
     if is_small(free, held, second):
-        shown = (
+        told = (
             formula("𝐙 = {free}", free=free),
             equation(letters.LAMBDA, scalar(held)),
             equation(_CURVED, scalar(second)),
         )
-        yield Line(say("{place}:", place=place), shown, is_kept=True)
+        yield Line(say("{place}:", place=place), told, is_kept=True)
 
 
 def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Prose:

@@ -1347,3 +1347,15 @@ find: [equilibria]
 def test_stability_is_told_by_its_factors(problem: str, stable_if: list[list[str]]) -> None:
     told = dynsolve.solve(problem).to_json()["results"]["equilibria_stability"]
     assert [point["stable_if"] for case in told for point in case] == stable_if
+
+
+def test_multipliers_are_told_in_the_angles_of_their_own_ring() -> None:
+    """By hand: the second row of 𝐠 = 𝐀_cᵀ 𝛌 is m g l₂ c₁₂ = λ; λ stands in no result of the JSON."""
+    problem = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m, link: 2}]
+constraints: [q2 + n*q1]
+find: [equilibria]
+"""
+    assert "𝛌 = m g l₂ c₁₂" in report(dynsolve.solve(problem), Format.TEXT).decode()

@@ -392,3 +392,13 @@ def test_a_mass_in_numbers_stands_before_the_square_of_a_distance(rows: str, ent
     problem = read_problem(f"gravity: none\ndh: [{rows}]\nmasses: [{{mass: 0.5, link: {last}}}]\n")
     D = Forms(problem.robot, derive(problem.robot))("D")
     assert isinstance(D, Matrix) and to_unicode(D.rows[0][0]) == entry
+
+
+def test_an_expression_of_another_ring_is_refused() -> None:
+    """Its generators stand for other angles: s₂ would be printed as s₁₂."""
+    one, other = (
+        build_ring(COORDINATES, [], preferred=[Angle.of("q1"), second])
+        for second in (Angle.of("q2"), Angle.of("q1") + Angle.of("q2"))
+    )
+    with pytest.raises(ValueError, match="another ring"):
+        Compactor(other).form(one.sin(Angle.of("q2")))
