@@ -20,7 +20,8 @@ from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Load
 
 FORCES = "A green arrow is a force from outside, at the point where it acts."
-NOT_DRAWN = "Moments from outside, and forces whose direction depends on the pose, are not drawn."
+MOMENTS = "Moments from outside are not drawn."
+TURNING = "Forces from outside whose direction depends on the pose are not drawn."
 
 _COLOUR = "#1b7f3b"
 _REACH, _HEAD = 48.0, 11.0
@@ -55,6 +56,8 @@ def drawn_forces(
     """Each force that is drawn, its letter, its point and its direction in the picture."""
     for number, load in enumerate(robot.questions.loads, 1):
         frame = pose.skeleton.frames[load.link]
+        if is_turning(load):
+            continue
         try:
             direction = _direction(load, numbers, frame)
             position = _vector(load.position.entries, numbers)
@@ -66,6 +69,11 @@ def drawn_forces(
             yield load, _name(robot, load, number), at, unit(direction)
 
 
+def is_turning(load: Load) -> bool:
+    """Whether the direction of a force depends on the pose."""
+    return any(entry.ring.depends_on_coordinates(entry) for entry in load.force.entries)
+
+
 def _direction(load: Load, numbers: RobotNumbers, frame: DrawnFrame) -> Vector:
     """The force as it acts on the robot, with numbers for its letters."""
     force = load.force if load.axes is None else load.axes @ load.force
@@ -75,9 +83,6 @@ def _direction(load: Load, numbers: RobotNumbers, frame: DrawnFrame) -> Vector:
 
 
 def _vector(entries: tuple[Expr, ...], numbers: RobotNumbers) -> Vector:
-    """ValueError where an entry depends on the pose."""
-    if any(entry.ring.depends_on_coordinates(entry) for entry in entries):
-        raise ValueError("its direction depends on the pose")
     x, y, z = (finite(entry, numbers.values) for entry in entries)
     return x, y, z
 

@@ -302,7 +302,10 @@ def _angle(turned: Turning, pose: PlacedPose, notes: Notes) -> None:
 
 SPRINGS = "A zigzag or a spiral is a spring."
 DAMPERS = "A cup with a piston is a damper."
-NOT_DRAWN = "Not drawn are springs and dampers on other than an angle or the distance of two points."
+OTHER_SPRINGS = (
+    "Springs on other than an angle or the distance of two points, or given by their energy, are not drawn."
+)
+OTHER_DAMPERS = "Dampers on other than the distance of two points are not drawn."
 
 _BESIDE = (0.0, 20.0, -20.0, 40.0, -40.0)
 _CUP, _CUP_HALF = 16.0, 6.0
@@ -316,12 +319,12 @@ def _springs(pose: PlacedPose, turning: Sequence[Turning], notes: Notes) -> list
     for spring in actions.stored:
         along = spring.along
         drawn = along is not None and _draw(along[0], compactor.form(along[1]), pose, turning, notes)
-        said.append(SPRINGS if drawn else NOT_DRAWN)
+        said.append(SPRINGS if drawn else OTHER_SPRINGS)
     for of, damping in (act.along for act in actions.resisting if act.along):
         ends = _ends(of, pose)
         if ends is not None:
             _dashpot(*_apart(*ends, pose, notes), compactor.form(damping), notes)
-        said.append(DAMPERS if ends else NOT_DRAWN)
+        said.append(DAMPERS if ends else OTHER_DAMPERS)
     return list(dict.fromkeys(said))
 
 

@@ -19,7 +19,7 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.derivation.rules import derive
 from dynsolve.draw import paths, poses
-from dynsolve.draw.forces import FORCES, NOT_DRAWN, drawn_forces, forces
+from dynsolve.draw.forces import FORCES, MOMENTS, TURNING, drawn_forces, forces, is_turning
 from dynsolve.draw.joint_angles import has_offsets, has_rings, joint_angles, names_of_angles, parallels
 from dynsolve.draw.labels import Box, Label, Taken, bounds, place
 from dynsolve.draw.lengths import WORLD, Length, dimensions, has_world, moves, row_lengths, tilt, world_frame
@@ -221,7 +221,6 @@ def _caption(
 ) -> str:
     """What stands under the picture, with what its lines are that are not always there."""
     dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
-    pushed = [load for load, *_ in drawn_forces(robot, values, pose)]
     turned_about = _BOLD[robot.base_turns[0][0]] if robot.base_turns else ""
     same_axis = f"{turned_about}₀, about which the base is turned, is that of the world, too."
     said = (
@@ -236,8 +235,9 @@ def _caption(
         (SPRINGS, bool(at_joints)),
         (OTHER_SPRINGS, len(at_joints) < len(robot.actions.stored)),
         (NO_DAMPERS, any(act.along for act in robot.actions.resisting)),
-        (FORCES, bool(pushed)),
-        (NOT_DRAWN, any(not load.moment.is_zero or load not in pushed for load in robot.questions.loads)),
+        (FORCES, any(drawn_forces(robot, values, pose))),
+        (MOMENTS, any(not load.moment.is_zero for load in robot.questions.loads)),
+        (TURNING, any(map(is_turning, robot.questions.loads))),
         (IN_METRES, any(label.kind == "length" and _is_number(label) for label in labels)),
     )
     opening = CAPTION if frames else WITHOUT_FRAMES
