@@ -29,7 +29,15 @@ HALF = Fraction(1, 2)
 
 def stored_energy(robot: Robot) -> Expr:
     """P_s, the sum of what is stored."""
-    return sum((act.energy for act in robot.actions.stored), start=robot.ring.zero)
+    return sum(stored_apart(robot), start=robot.ring.zero)
+
+
+def stored_apart(robot: Robot) -> list[Expr]:
+    """What is stored in each deflection: added up, two squares would make others that are of no spring."""
+    energies = dict.fromkeys((act.differences for act in robot.actions.stored), robot.ring.zero)
+    for act in robot.actions.stored:
+        energies[act.differences] += act.energy
+    return list(energies.values())
 
 
 def friction(robot: Robot) -> Matrix:

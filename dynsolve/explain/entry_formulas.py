@@ -76,17 +76,14 @@ class EntryFormulas(Struct, frozen=True):
 
     def force(self, k: int) -> Node:
         """τ_k = Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + friction_k + g_k"""
-        return total([*self.acceleration_terms(k), *self._coriolis_terms(k), self.friction(k), self.g(k)])
+        return total([*self.acceleration_terms(k), *self.coriolis_terms(k), self.friction(k), self.g(k)])
 
     def acceleration_terms(self, k: int) -> list[Node]:
         """d_kj q̈_j for every j"""
         return self._times_rates(k, dots=2)
 
-    def coriolis_force(self, k: int) -> Node:
-        """Row k of C q̇: Σ_ij c_ijk q̇_i q̇_j"""
-        return total(self._coriolis_terms(k))
-
-    def _coriolis_terms(self, k: int) -> list[Node]:
+    def coriolis_terms(self, k: int) -> list[Node]:
+        """Row k of C q̇: c_ijk q̇_i q̇_j for every i and j"""
         return [
             self.product(1 if i == j else 2, [(self.c(i, j, k), 1), *rates]) for i, j, rates in self._pairs()
         ]

@@ -24,6 +24,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.actions import stored_apart
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.entry_formulas import EntryFormulas, Factor, coriolis_matrix, pairs, rates_of_pair
@@ -161,22 +162,21 @@ class Forms:
             return tree.column(*(self(f"tau{q.index}") for q in self.robot.coordinates))
         if name == "L":
             return total([self("K"), negated(self("P"))])
-        if name in ("P", "Ps"):
-            return _with_halves(self._potential_energy(self.of(value)) if name == "P" else self.of(value))
+        if name == "Ps":
+            return _with_halves(total(list(map(self.of, stored_apart(self.robot)))))
+        if name == "P":
+            return _with_halves(self._potential_energy(value))
         return self.of(value)
 
-    def _potential_energy(self, compact: Node) -> Node:
+    def _potential_energy(self, energy: Expr) -> Node:
         """Σ P_i as it is added up, its bodies collected where they share terms; or what is much shorter."""
-        is_numeric, springs = self.robot.is_numeric, self.robot.actions.stored
-        if (is_numeric and not springs) or not self.robot.bodies:
-            return compact
-        names = [f"P{body.name}" for body in self.robot.bodies]
-        parts = [self.values[name] for name in names]
-        whole = sum(parts, start=self.robot.ring.zero)
-        is_shorter = is_numeric or len(whole) < sum(map(len, parts))
-        forms = [self.of(whole)] if is_shorter else [self(name) for name in names]
-        added = total([*forms, *([self("Ps")] if springs else [])])
-        return added if cost(added) <= 1.5 * cost(compact) else compact
+        stored, names = self.robot.actions.stored, [f"P{body.name}" for body in self.robot.bodies]
+        whole = energy - self.values["Ps"] if stored else energy
+        found = self.of(whole)
+        if not self.robot.is_numeric and len(whole) == sum(len(self.values[name]) for name in names):
+            added = total([self(name) for name in names])
+            found = added if cost(added) <= 1.5 * cost(found) else found
+        return total([found, *([self("Ps")] if stored else [])])
 
     def _momentum_in_decimals(self, momentum: Expr) -> Node:
         """Σ d_kj q̇_j, by the rates: decimals that two of them share are no reason to draw them together."""
@@ -226,7 +226,7 @@ class Forms:
             case families.C:
                 return coriolis_matrix(self.robot.ring.names, self.christoffel)
             case families.CQD:
-                return tree.column(*map(formulas.coriolis_force, range(self.robot.n)))
+                return tree.column(*(total(formulas.coriolis_terms(k)) for k in range(self.robot.n)))
             case families.I:
                 body = self.robot.bodies[index].name
                 R, tensor = self.matrix(f"R{body}").rows, self.matrix(f"I_body{body}")

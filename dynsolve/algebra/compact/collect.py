@@ -50,6 +50,9 @@ from dynsolve.notation.tree import (
     walk,
 )
 
+_KEPT = (Rank.PARAMETER, Rank.COORDINATE, Rank.RATE)
+"""Where powers of these differ in the terms of a sum, none is drawn out of it."""
+
 SEARCHED = 14
 """Up to this number of terms every promising split is tried; above it the likeliest alone."""
 
@@ -153,7 +156,7 @@ class Collector:
     def primitive(self, poly: Polynomial) -> tuple[Rational, Monomial, Polynomial]:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
         factor = self._typed_in(poly) or self.content(poly.values())
-        if factor.denominator != 1 and self._of_several_bodies(poly):
+        if factor.denominator != 1 and (self._of_several_bodies(poly) or self._of_powers(poly)):
             factor = 1
         mono = self._worth_drawing(poly, common(poly))
         rest = self._divided(poly, mono, factor)
@@ -167,6 +170,12 @@ class Collector:
         if len({f.denominator for f in poly.values()}) == 1:
             return False
         return len({tuple(a for a, _ in mono if ranks[a][0] is Rank.LEADING) for mono in poly}) > 1
+
+    def _of_powers(self, poly: Polynomial) -> bool:
+        """Whether each term has another power of a coordinate: k x²/2 + k₃ x⁴/4."""
+        moving = (atom for atom, _ in min(poly) if self.atoms.ranks[atom][0] is Rank.COORDINATE)
+        powers = ([dict(mono).get(atom, 0) for mono in poly] for atom in moving)
+        return any(min(own) > 1 and len({*own}) == len(poly) for own in powers)
 
     def content(self, factors: Iterable[Rational]) -> Rational:
         """The factor worth drawing out; of decimals only one that all are equal to."""
@@ -229,16 +238,16 @@ class Collector:
         return {divide(m, mono): exact(f, factor) for m, f in poly.items()}
 
     def _worth_drawing(self, poly: Polynomial, shared: Monomial) -> Monomial:
-        """The common monomial without lengths and velocities that stay behind in some terms.
+        """The common monomial without lengths, coordinates and velocities that stay behind in some terms.
 
-        A book writes l² + l a c, and not l (l + a c).
+        A book writes l² + l a c, and not l (l + a c); and k x + k₃ x³.
         """
         if len(poly) > SEARCHED or len(poly) == 1:
             return shared
         kept = []
         for atom, exponent in shared:
             left = {dict(mono)[atom] - exponent for mono in poly}
-            if self.atoms.ranks[atom][0] not in (Rank.PARAMETER, Rank.RATE) or len(left) == 1:
+            if self.atoms.ranks[atom][0] not in _KEPT or len(left) == 1:
                 kept.append((atom, exponent))
         return tuple(kept)
 

@@ -129,3 +129,26 @@ springs: [{stiffness: 250, of: z, rest: 0.4}]
     assert to_unicode(forms.matrix("g").rows[0][0]) == "4.905 + 250(z - 0.4)"
     assert to_unicode(forms("dLdq1")) == "-4.905 - 250(z - 0.4)"
     assert to_unicode(forms("tau1")) == "0.5 z̈ + 4.905 + 250(z - 0.4)"
+
+
+@pytest.mark.parametrize(
+    ("springs", "energy"),
+    [
+        (
+            "{stiffness: 30, of: q1, rest: 0.2}, {stiffness: 20, of: q2 - q1, rest: 0.3}",
+            "P_s = 15(q₁ - 0.2)² + 10(q₂ - q₁ - 0.3)²",
+        ),
+        (
+            "{stiffness: 30, of: q1, rest: 1}, {stiffness: 20, of: q1, rest: -1}",
+            "P_s = 15(q₁ - 1)² + 10(q₁ + 1)²",
+        ),
+        ("{stiffness: 30, of: q1}, {stiffness: 20, of: q1}", "P_s = 25q₁²"),
+        ("{stiffness: k, of: q1}, {stiffness: k, of: q2 - q1}", "P_s = ½ k q₁² + ½ k (q₂ - q₁)²"),
+        ("{energy: k*q1^2/2 + k3*q1^4/4}", "P_s = ½ k q₁² + ¼ k₃ q₁⁴"),
+    ],
+)
+def test_a_spring_keeps_its_square_in_the_energy_of_all(springs: str, energy: str) -> None:
+    arm = "gravity: none\ndh: [{d: q1*}, {d: q2*}]\nmasses: [{mass: m1, link: 1}, {mass: m2, link: 2}]\n"
+    text = f"{arm}springs: [{springs}]\n"
+    (result,) = step("Ps", text).result
+    assert shown(result, text) == energy

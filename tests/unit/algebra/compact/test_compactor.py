@@ -348,6 +348,7 @@ def test_constant_forms_are_the_same_number(degrees: int, powers: dict[int, int]
         ("{stiffness: k, of: y - 0.3*z}", "-0.3 k (y - 0.3 z)"),
         ("{energy: 0.15*k*(z - 0.35)^4}", "0.6 k (z - 0.35)³"),
         ("{energy: 0.15*k*(z - l)^2}", "0.3 k (z - l)"),
+        ("{energy: k*z^2/2 + k3*z^4/4}", "k z + k₃ z³"),
     ],
 )
 def test_a_decimal_is_drawn_out_of_a_length_where_that_leaves_what_was_typed(spring: str, force: str) -> None:
