@@ -281,12 +281,17 @@ class _Search:
             self.special.add(condition.multiplier(second.entries))
         nonzero = (*self.special.factors, *self.of_rank.factors)
         signs, found = self.signs.beside(nonzero=nonzero), []
+        is_periodic = all(rate.denominator == 1 for pair in robot.ring.pairs for _, rate in pair.angle.terms)
         for one, bounds in exist.items():
-            there = Transfer(ring, ring if self.held else _ring_of_sums(ring, one))
+            there = Transfer(ring, _ring_of_sums(ring, one))
             own, *cases = (tuple(Condition(there(c.expr)) for c in case) for case in (one, *exist))
-            curvature = Curvature(second.map(there), signs.moved(there), may_be_held, self.held)
+            held = self.held.moved(there) if self.held else None
+            curvature = Curvature(second.map(there), signs.moved(there), may_be_held, held)
             points = curvature.points(own, [Bound(there(bound.value), bound.is_strict) for bound in bounds])
-            found.append(tuple(point for point in points if not _is_told_of_more(point, own, cases)))
+            told = [point for point in points if not _is_told_of_more(point, own, cases)]
+            if is_periodic:  # q₃/2 = -90° is q₃ = -180°, the pose of q₃ = 180°
+                told = list({point.told_at_pose(): point for point in reversed(told)}.values())[::-1]
+            found.append(tuple(told))
         return tuple(found)
 
     def _special_cases(self, factors: Iterable[Expr], settled: Settled | None) -> Iterator[SpecialCase]:

@@ -20,6 +20,7 @@ from enum import StrEnum
 from fractions import Fraction
 from functools import partial
 from itertools import combinations, permutations, product
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -114,6 +115,21 @@ class Point(Struct, frozen=True):
     def is_told(self) -> bool:
         """Whether something is known."""
         return bool(self.conditions or self.nonzero) or self.stability is not Stability.UNDECIDED
+
+    def told_at_pose(self) -> tuple[Any, ...]:
+        """What is alike of points between which coordinates that are fixed make whole turns, q/2 = ±90°."""
+        rates = [dict(pair.angle.terms) for pair, _, _ in self.values]
+        turns = [Fraction(DEGREES[sine, cosine], 360) for _, sine, cosine in self.values]
+        periods = {atom: rate.denominator for one in rates if len(one) == 1 for atom, rate in one.items()}
+        poses = (
+            tuple(
+                (turn + sum(one.get(atom, 0) * whole for atom, whole in zip(periods, times, strict=True))) % 1
+                for turn, one in zip(turns, rates, strict=True)
+            )
+            for times in product(*map(range, periods.values()))
+        )
+        pairs = tuple(pair.angle for pair, _, _ in self.values)
+        return pairs, min(poses), replace(self, values=(), along=None)
 
     def put(self, exprs: Sequence[Expr]) -> list[Expr]:
         """What expressions are at its quarter turns."""

@@ -1359,3 +1359,34 @@ constraints: [q2 + n*q1]
 find: [equilibria]
 """
     assert "𝛌 = m g l₂ c₁₂" in report(dynsolve.solve(problem), Format.TEXT).decode()
+
+
+ON_A_LINE = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+masses: [{mass: m, link: 1}, {mass: M, link: 2}]
+constraints: [tip.y]
+find: [equilibria]
+"""
+
+
+def test_what_constraints_hold_is_told_at_sums_of_angles() -> None:
+    """By hand: with q₁ + q₂ upright and q₃ = 0, P = m g l₁ s₁ + M g (l₁ s₁ + l₂ s₁₂) is least at +90°."""
+    told = dynsolve.solve(ON_A_LINE).to_json()["results"]["equilibria_stability"][2]
+    known = {(point["q1 + q2"], point["q3"]): point.get("stable_if") for point in told}
+    dependent = ["l1 != l2 + l3"]  # where the links reach back to the base, the row of A_c is 0
+    assert known == {
+        ("pi/2", "0"): dependent,
+        ("pi/2", "pi"): None,
+        ("-pi/2", "0"): None,
+        ("-pi/2", "pi"): None,
+    }
+
+
+def test_a_pose_is_told_once() -> None:
+    """cos(q₃/2) = 0 at q₃/2 = 90° and -90°, which is one pose."""
+    equal = (
+        ON_A_LINE.replace("l1", "l").replace("l2", "l").replace("l3", "l").replace(", {mass: M, link: 2}", "")
+    )
+    told = dynsolve.solve(equal).to_json()["results"]["equilibria_stability"]
+    assert [point["q3"] for point in told[1]] == ["pi"] * 4
