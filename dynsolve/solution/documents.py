@@ -42,6 +42,7 @@ from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
 from dynsolve.explain.given import at_the_state, holds_at_state, in_words, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
+from dynsolve.explain.signs import formulas_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
 from dynsolve.explain.terms import ID, rows_in_names
 from dynsolve.explain.writing import (
@@ -57,7 +58,7 @@ from dynsolve.explain.writing import (
     titled,
 )
 from dynsolve.notation.printing import Style
-from dynsolve.notation.rounding import marked, marked_among_words
+from dynsolve.notation.rounding import is_rounded, marked, marked_among_words
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
@@ -547,8 +548,8 @@ class _Parts(Struct, dict=True):
             *part("the section of numbers", self.numbers),
         )
         stated = part("what is given", lambda: self.statement(derivation))
+        style = self.solution.style
         document = Document((
-            *self.opening(),
             *stated,
             *part("the list of letters", lambda: self.letters(stated, derivation)),
             *derivation,
@@ -556,22 +557,23 @@ class _Parts(Struct, dict=True):
             *part("the notation", lambda: self.notation((*stated, *derivation))),
         ))  # fmt: skip
         if self.solution.may_round:
-            style = self.solution.style
             among_words = partial(marked_among_words, style=style)
             document = rewritten(document, displayed=partial(marked, style=style), inline=among_words)
+        rounds = bool(style.digits) and any(is_rounded(node, style) for node in formulas_in(document.blocks))
+        document = Document((*self.opening(rounds), *document.blocks))
         return (
             rewritten(document, words=of_second_edition) if self.solution.problem.edition == 2 else document
         )
 
-    def opening(self) -> Iterator[Block]:
-        """The title, the source, and how numbers are printed."""
+    def opening(self, rounds: bool) -> Iterator[Block]:
+        """The title, the source, and how numbers are printed, some of which may be rounded."""
         problem = self.solution.problem
         yield Heading(problem.title, 1)
         if problem.source:
             yield Text((f"{problem.source.rstrip('.')}.",))
         if self.solution.robot.is_numeric:
-            digits = self.solution.style.digits
-            yield Text(say(_IN_NUMBERS, rounded=say(_ROUNDED, digits=digits) if digits else ""))
+            rounded = say(_ROUNDED, digits=self.solution.style.digits) if rounds else ""
+            yield Text(say(_IN_NUMBERS, rounded=rounded))
         elif self.solution.robot.has_decimals:
             yield Text((_IN_SI,))
 

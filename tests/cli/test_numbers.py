@@ -74,6 +74,16 @@ def test_digits_of_a_model_in_numbers(digits: tuple[str, ...], shown: str) -> No
     assert "A unit stands behind a result that is a number other than 0, and behind some matrices" in said
 
 
+@pytest.mark.parametrize(
+    ("stage", "digits", "rounds"),
+    [("vectorized", "6", True), ("vectorized", "9", True), ("jacobian", "6", False)],
+)
+def test_that_numbers_are_rounded_is_said_where_one_is(stage: str, digits: str, rounds: bool) -> None:
+    out = dynsolve("solve", "numeric-2r", "--stage", stage, "--digits", digits).out
+    told = " ".join(out.split()).count("significant digits is rounded")
+    assert told == rounds and (out.replace("≈ marks that", "").count("≈") > 0) == rounds
+
+
 def test_stages_choose_numbers_too() -> None:
     out = solved(*SET, "--stage", "lagrangian")
     assert "ℒ = 0.5 ((0.05 + L₂²) θ̇₁² + L̇₂²) - 7.848 in J" in out and "τ₁" not in out
