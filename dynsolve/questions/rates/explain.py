@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain, combinations
 
 from msgspec.structs import replace
 
 from dynsolve.algebra.factors import is_never_zero
 from dynsolve.algebra.linear_systems import dependent_where, is_solvable, rank_parts
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, minors, work
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
@@ -22,7 +24,7 @@ from dynsolve.notation.tree import ONE, ZERO, Node, Parenthesized, Power, Sum, S
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.questions.rates.derive import MOST_PRODUCTS, lost_motions, squared, wanted_by_accelerations
-from dynsolve.questions.set_forms import SetForms
+from dynsolve.questions.set_forms import SetForms, may_vanish
 from dynsolve.robot.model import Robot
 
 _J = letters.J_TASK
@@ -147,7 +149,7 @@ class _System:
             and len({q.type for q in self.context.robot.coordinates}) > 1
         ):
             how += _MIXED
-        return how + _where_rank(self.J, rank)
+        return how + _where_rank(self.context, self.J, rank)
 
     @property
     def _pseudoinverse(self) -> Node:
@@ -197,7 +199,9 @@ def _none(context: Context, J: Matrix, right: Matrix) -> Prose:
     if isinstance(lost, Skipped):
         return ("no solution in general",)
     values = [entry for one in (asked.velocity, asked.acceleration) if one for entry in one.entries]
-    given = {index for value in values for index in value.used}
+    at = AtState(J.ring, asked.state.by_symbol)
+    rates = [at(J.ring.symbol(name, dots)) for name, dots, _ in asked.state.values if dots]
+    given = {index for value in (*values, *rates) for index in value.used}
     given -= {index for entry in J.entries for index in entry.used}
     forms = SetForms(context.robot, context.values)
     found = [forms.vanishing(one, given) for one in (lost.T @ right).entries if not one.is_zero]
@@ -209,15 +213,30 @@ def _none(context: Context, J: Matrix, right: Matrix) -> Prose:
     return say("a solution only where {these}", these=listed([equation(one, ZERO) for one in these]))
 
 
-def _where_rank(J: Matrix, rank: int) -> Prose:
+def _where_rank(context: Context, J: Matrix, rank: int) -> Prose:
     """Where all is so that its rank decides, unless that is seen to be the same in every configuration."""
-    is_short = work(squared(J)) <= MOST_PRODUCTS
-    is_full = rank == min(J.shape)
-    if rank == 0 or (is_short and is_full and is_never_zero(determinant(squared(J)))):
+    if rank == 0:
         return ()
-    if is_short and any(map(is_never_zero, minors(J, rank))):
-        return ()
+    if work(squared(J)) <= MOST_PRODUCTS:
+        if any(map(is_never_zero, minors(J, rank))):
+            return ()
+        if J.shape != (rank, rank):
+            if any(map(is_never_zero, chain(_sizes(J, rank), _sizes(J.T, rank)))):
+                return ()
+        else:
+            size = may_vanish(determinant(J))
+            is_full = SetForms(context.robot, context.values).comparison(size, "≠")
+            if is_small(is_full):
+                return say("All this holds where {is_full}. ", is_full=is_full)
     return say("All this holds where the rank of $𝐉_r$ is {rank}. ", rank=rank)
+
+
+def _sizes(J: Matrix, rank: int) -> Iterator[Expr]:
+    """det(Mᵀ M) of so many columns M: 0 where they are dependent."""
+    for chosen in combinations(J.T.rows, rank):
+        columns = Matrix(J.ring, chosen)
+        if work(square := columns @ columns.T) <= MOST_PRODUCTS:
+            yield determinant(square)
 
 
 def square_of(letter: Node, matrix: Matrix) -> Node:
@@ -281,7 +300,7 @@ def _space(context: Context, name: str) -> Step:
         what = "Nothing but $𝟎$ is orthogonal to all possible velocities: no motion is lost."
     return replace(
         found,
-        why=(*say(what), " ", *_where_rank(J, rank), *_state_once(context, name)),
+        why=(*say(what), " ", *_where_rank(context, J, rank), *_state_once(context, name)),
         working=(equation(_J, context.show(J)),),
         result=(equation(letter, spanned),),
         notes=((f"The rank is {rank}, and the dimension of this space {count}.", *dependent),),

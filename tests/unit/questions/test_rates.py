@@ -125,14 +125,19 @@ def test_of_many_that_come_nearest_it_is_said_which_and_how() -> None:
 @pytest.mark.parametrize(
     ("state", "velocity", "words"),
     [
-        ("", "[v, w]", "one solution. All this holds where the rank of 𝐉_r is 2."),
+        ("", "[v, w]", "one solution. All this holds where s₂ ≠ 0."),
         (
             "state: {q1: 0, q2: gamma}\n",
             "[v, 0]",
-            "has one solution. All this holds where the rank of 𝐉_r is 2.",
+            "has one solution. All this holds where sin(γ) ≠ 0.",
         ),
         ("state: {q1: 0, q2: 90deg}\n", "[v, w]", "has one solution. The state is"),
         ("state: {q1: 0, q2: 0}\n", "[v, w]", "has a solution only where v = 0, the rank being 1; many"),
+        (
+            "state: {q2: 180deg}\n",
+            "[v, w]",
+            "has a solution only where w s₁ + v c₁ = 0, the rank being 1; many",
+        ),
         ("state: {q1: 0, q2: 0}\n", "[l, w]", "has no solution, the rank being 1; many"),
         (
             "state: {q1: 0, q2: 0}\n",
@@ -147,6 +152,18 @@ def test_it_is_said_for_which_configurations_and_velocities(state: str, velocity
     shown = " ".join(report(dynsolve.solve(text), Format.TEXT).decode().split())
     assert words in shown
     assert ("no motion is lost. All this holds" in shown) == ("All this" in words)
+
+
+def test_accelerations_at_a_rate_that_may_be_0_are_not_said_to_have_none() -> None:
+    text = ELBOW + "acceleration: [0, 0]\nstate: {q1: 0, q2: 0, q1': w, q2': 0}\nfind: [qdd]\n"
+    shown = " ".join(report(dynsolve.solve(text), Format.TEXT).decode().split())
+    assert "The rest has a solution only where w = 0, the rank being 1" in shown
+
+
+def test_where_lengths_of_columns_are_never_0_the_rank_is_no_condition() -> None:
+    """Folded: l2² s1² + l2² c1² is l2², and (l1 - l2)² + l2² no sum of positive terms."""
+    text = ELBOW + "state: {q2: 180deg}\nfind: [nullspace, rangespace, lost]\n"
+    assert "All this holds" not in report(dynsolve.solve(text), Format.TEXT).decode()
 
 
 def test_equations_that_repeat_each_other_may_have_one_solution() -> None:
