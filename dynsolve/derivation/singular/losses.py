@@ -9,7 +9,7 @@ signs, a w of these columns; it is one of J where the rank is k.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from itertools import combinations
 
 from msgspec import Struct
@@ -18,7 +18,8 @@ from dynsolve.algebra.factors import trig_factors, trig_quotient
 from dynsolve.algebra.linear_systems import content
 from dynsolve.algebra.matrix import Matrix, determinant, minors, work
 from dynsolve.algebra.ring import Expr
-from dynsolve.derivation.singular.zeros import Condition, can_hold, core, follows
+from dynsolve.derivation.elimination import ParameterSigns
+from dynsolve.derivation.singular.zeros import Condition, can_hold, core, follows, obstacles
 
 Direction = tuple[Expr, ...]
 """w, a component for each row of J."""
@@ -65,8 +66,12 @@ def loss(
     conditions: Sequence[Condition],
     greatest: int,
     everywhere: Sequence[Direction] = (),
+    nonzero: Set[Expr] = frozenset(),
 ) -> Loss:
-    """What a Jacobian of greatest rank `greatest` loses where conditions hold, beside what is lost anyhow."""
+    """What a Jacobian of greatest rank `greatest` loses where conditions hold, beside what is lost anyhow.
+
+    `nonzero` are polynomials in parameters that are taken not to be 0.
+    """
     pivots, rest = core_of_it
     more, there = core(_held(rest, conditions))
     pivots += more
@@ -82,9 +87,9 @@ def loss(
         rank,
         shown,
         held,
-        rank_holds=not left or _has_rank_everywhere(there, left, conditions),
+        rank_holds=not left or _has_rank_everywhere(there, left, conditions, nonzero),
         are_independent=not here
-        or _has_rank_everywhere(Matrix.of(jacobian.ring, here), len(here), conditions),
+        or _has_rank_everywhere(Matrix.of(jacobian.ring, here), len(here), conditions, nonzero),
         everywhere=many if shown else 0,
     )
 
@@ -125,10 +130,12 @@ def _has_rank(matrix: Matrix, k: int, conditions: Sequence[Condition]) -> bool:
     return any(not follows(minor, known) for minor in minors(matrix, k))
 
 
-def _has_rank_everywhere(matrix: Matrix, k: int, conditions: Sequence[Condition]) -> bool:
-    """Whether some minor of size k is not 0, wherever the conditions hold."""
-    known = [condition.expr for condition in conditions]
-    return not can_hold([*known, *minors(matrix, k)])
+def _has_rank_everywhere(matrix: Matrix, k: int, conditions: Sequence[Condition], nonzero: Set[Expr]) -> bool:
+    """Whether some minor of size k is not 0, wherever the conditions hold, whatever the parameters are."""
+    values = [*(condition.expr for condition in conditions), *minors(matrix, k)]
+    return not can_hold(values) and any(
+        nonzero.issuperset(ParameterSigns().open_factors(one)) for one in obstacles(values)
+    )
 
 
 def _directions(matrix: Matrix, rank: int, conditions: Sequence[Condition]) -> Iterator[Direction]:

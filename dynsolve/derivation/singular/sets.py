@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from itertools import combinations, product
 
 from msgspec import Struct, field
 
-from dynsolve.algebra.factors import is_positive, squares, trig_factors
+from dynsolve.algebra.factors import is_positive, squares, trig_factors, trig_quotient
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix, Place, minors, parts, placed_minors, work
 from dynsolve.algebra.ring import Expr
@@ -129,7 +129,8 @@ def singular_set(jacobian: Matrix) -> SingularSet | None:
         return None
     exist = {one: bounds for one in alternatives if (bounds := existence(one)) is not None}
     everywhere = lost_everywhere(jacobian, pivots + rank) if exist else ()
-    losses = tuple(loss(jacobian, (pivots, rest), one, pivots + rank, everywhere) for one in exist)
+    nonzero = {*special.factors}
+    losses = tuple(loss(jacobian, (pivots, rest), one, pivots + rank, everywhere, nonzero) for one in exist)
     told = tuple(factor for factor in special.factors if len(factor) <= MOST_SPECIAL_TERMS)
     return SingularSet(
         pivots + rank,
@@ -214,12 +215,15 @@ class _Cases(Struct, dict=True):
         if not chosen and self.special is not None:
             self.special.never[held, left[choices.index(chosen)]] = None
         self._divided(left[choices.index(chosen)])
+        shared = {factor for factor in chosen if all(factor in others for others in choices)}
+        alone = [_without(value, shared) for value in left]
         for factor in chosen:
             condition, parts = Condition(factor), squares(factor)
+            values = left if factor in shared else alone
             if len(parts) > 1:
-                yield from self.of((*parts, *left), held)
+                yield from self.of((*parts, *values), held)
             elif not held or self._can_hold([*known, factor]):
-                rest = tuple(self._reduced(value, condition) for value in left)
+                rest = tuple(self._reduced(value, condition) for value in values)
                 yield from self.of(rest, tuple(dict.fromkeys((*held, condition))))
 
     def _settled(self, held: Alternative) -> Iterator[Alternative]:
@@ -294,6 +298,15 @@ class _Cases(Struct, dict=True):
 def minors_work(matrix: Matrix, size: int) -> int:
     """The products of terms that all minors of a size may come to."""
     return sum(map(work, parts(matrix, size)))
+
+
+def _without(value: Expr, shared: Set[Expr]) -> Expr:
+    """What is left of a value where factors are divided out as often as they stand in it."""
+    for factor, times in trig_factors(value) if shared else ():
+        for _ in range(times if factor in shared else 0):
+            left = trig_quotient(value, factor)
+            value = value if left is None else left
+    return value
 
 
 def _effort(factors: Sequence[Expr]) -> tuple[int, int]:

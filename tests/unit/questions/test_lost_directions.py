@@ -17,6 +17,10 @@ gravity: none
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
 find: [singular]
 """
+FOLDED = """
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: a2, alpha: 90deg}, {theta: q3*, a: a3}]
+find: [singular]
+"""
 
 
 @pytest.mark.parametrize(
@@ -24,6 +28,7 @@ find: [singular]
     [
         (RRP, 0, True, False),  # q3 = 0: (s1, -c1, 0) and (s2, 0, -c1 c2) are parallel where c1 = 0
         (RRP, 1, False, True),  # c2 = 0: where q3 = 0 besides, the rank is 1
+        (FOLDED, 0, False, True),  # a2 + a3 c3 = 0: where a2 = a3 it is folded, and the rank is 1
         (STRETCHED, 0, True, True),  # s2 = 0: one direction, along the arm
     ],
 )

@@ -73,6 +73,15 @@ def test_what_is_there_for_some_lengths_alone_says_for_which() -> None:
     assert told == [["L4 - L2"], ["L4 - L2"], [], []]
 
 
+def test_what_vanishes_with_a_factor_of_all_minors_is_no_case_of_special_lengths() -> None:
+    """Where s2 = 0 and a1 = a2 they are 0 because a1 + a2 c2 is, and that is a case."""
+    found = set_of("dh: [{theta: q1*, a: a1, alpha: 90deg}, {theta: q2*, a: a2}]", "")
+    form = Compactor(found.minors[0].ring).form
+    ((bound,),) = found.exist
+    assert not found.special and not found.may_be_others
+    assert (to_python(form(bound.value)), bound.is_strict) == ("a2 - a1", False)
+
+
 def test_what_is_too_long_is_left_out_by_count() -> None:
     """Seven joints and a point: the cases have too many terms, and no clock decides."""
     table = (ROOT / "problems" / "panda-7r.yaml").read_text("utf-8").split("dh:")[1].split("masses:")[0]
