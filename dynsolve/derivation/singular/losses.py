@@ -18,8 +18,7 @@ from dynsolve.algebra.factors import trig_factors, trig_quotient
 from dynsolve.algebra.linear_systems import content
 from dynsolve.algebra.matrix import Matrix, determinant, minors, work
 from dynsolve.algebra.ring import Expr
-from dynsolve.derivation.elimination import ParameterSigns
-from dynsolve.derivation.singular.zeros import Condition, can_hold, core, follows, obstacles
+from dynsolve.derivation.singular.zeros import Condition, core, follows, never_hold
 
 Direction = tuple[Expr, ...]
 """w, a component for each row of J."""
@@ -133,9 +132,7 @@ def _has_rank(matrix: Matrix, k: int, conditions: Sequence[Condition]) -> bool:
 def _has_rank_everywhere(matrix: Matrix, k: int, conditions: Sequence[Condition], nonzero: Set[Expr]) -> bool:
     """Whether some minor of size k is not 0, wherever the conditions hold, whatever the parameters are."""
     values = [*(condition.expr for condition in conditions), *minors(matrix, k)]
-    return not can_hold(values) and any(
-        nonzero.issuperset(ParameterSigns().open_factors(one)) for one in obstacles(values)
-    )
+    return never_hold(values, nonzero)
 
 
 def _directions(matrix: Matrix, rank: int, conditions: Sequence[Condition]) -> Iterator[Direction]:

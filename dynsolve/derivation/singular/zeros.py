@@ -16,7 +16,7 @@ the matrix is 1 more than that of the rest.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -33,7 +33,7 @@ from dynsolve.algebra.factors import is_positive, trig_quotient
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.derivation.elimination import turn_of
+from dynsolve.derivation.elimination import ParameterSigns, turn_of
 from dynsolve.errors import AlgebraError
 
 LIMITS = (40, 150, 400)
@@ -78,6 +78,13 @@ def obstacles(values: Sequence[Expr]) -> list[Expr]:
     Where one of them is not 0 the expressions cannot hold together, whatever numbers the parameters are.
     """
     return _still([_exact_terms(value.ring, value.poly) for value in values], values[0].ring)
+
+
+def never_hold(values: Sequence[Expr], nonzero: Set[Expr] = frozenset()) -> bool:
+    """Whether expressions are found to be 0 together for no positive parameters, `nonzero` factors not 0."""
+    return not can_hold(values) and any(
+        nonzero.issuperset(ParameterSigns().open_factors(one)) for one in obstacles(values)
+    )
 
 
 def exceptions(value: Expr, others: Sequence[Expr]) -> list[Expr]:

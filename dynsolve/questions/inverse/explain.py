@@ -7,10 +7,11 @@ from math import inf, prod
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.factors import is_never_zero, is_positive, parameters
+from dynsolve.algebra.factors import is_never_zero, trig_factors
 from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.configurations import Conditions
+from dynsolve.derivation.singular.zeros import never_hold
 from dynsolve.document import Prose, Table
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
@@ -54,7 +55,6 @@ from dynsolve.questions.inverse.forms import InverseForms, InverseFormulas
 from dynsolve.questions.inverse.solving import FixedPoint, Part, Solving, Turn
 from dynsolve.questions.inverse.subproblems import Length, OneLine, Remainder, RootLength, Solved, TwoLines
 from dynsolve.questions.inverse.target import target_steps, task_of
-from dynsolve.questions.set_forms import may_vanish
 from dynsolve.robot.model import Robot
 
 SHORT = 4
@@ -222,7 +222,7 @@ def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: 
         concluding=("So:",) if lines else (),
         result=results,
         figure=figure_of(formulas, step),
-        notes=tuple(_notes(forms, step, part.turn)),
+        notes=tuple(_notes(forms, step, part.turn, before)),
         normal=NOTED if starts_anew or not lines else RESUMED,
         uses=("inverse_task", *(f"inverse_{s.coordinate}" for s in before if s.coordinate in shown)),
     )
@@ -344,7 +344,7 @@ def _existence(formulas: InverseFormulas, step: Solved) -> Node | None:
     return None
 
 
-def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Prose]:
+def _notes(forms: InverseForms, step: Solved, turn: Turn | None, before: Sequence[Solved]) -> Iterator[Prose]:
     """When there is a solution, and when there are infinitely many."""
     if turn is not None and turn.is_wrist:
         yield from _wrist_notes(forms.inverse_formulas, turn, step)
@@ -363,46 +363,31 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None) -> Iterator[Pro
     if (there := _existence(formulas, step)) is not None:
         text = "This equation has solutions where {there}; on the boundary, with =, the two are one."
         yield say(text, there=there)
-    left = [may_vanish(factor) for factor in factors]
-    squares = [one.ring.dot(some, some) for one in left for some in ([one], left)]
-    if factors and not any(map(is_positive, squares)) and _may_vanish(factors):
-        zeros = [equation(forms.vanishing(factor), Number(0)) for factor in factors]
+    divided = {factor for one in before for value in _divisors(one) for factor, _ in trig_factors(value)}
+    left = [
+        prod((f for f, _ in trig_factors(one) if f not in divided), start=one.ring.one) for one in factors
+    ]
+    if factors and not never_hold(left):
+        zeros = [equation(forms.vanishing(factor), Number(0)) for factor in left]
         yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
 
 
 def _needed(forms: InverseForms, step: Solved) -> Iterator[Node]:
     """That what is divided by is not 0, where it may be."""
+    for divisor in _divisors(step):
+        if not is_never_zero(divisor):
+            yield formula("{divisor} ≠ 0", divisor=forms.vanishing(divisor))
+
+
+def _divisors(step: Solved) -> Iterator[Expr]:
+    """What a step divides by."""
     match step:
         case OneLine(_, cosine, sine, value) if not value.is_zero and (cosine.is_zero or sine.is_zero):
-            divisor = cosine + sine
+            yield cosine + sine
         case TwoLines() if not step.is_rotation:
-            divisor = step.determinant
+            yield step.determinant
         case Length(_, divisor) | RootLength(_, divisor):
-            pass
-        case _:
-            return
-    if not is_never_zero(divisor):
-        yield formula("{divisor} ≠ 0", divisor=forms.vanishing(divisor))
-
-
-def _may_vanish(factors: Sequence[Expr]) -> bool:
-    """Whether all may be 0 at once: where one of them is a sine or a cosine, the others where that is 0."""
-    ring = factors[0].ring
-    constant = parameters(ring.one) | {g.index for g in ring.generators if g.name in ring.parameters}
-    held = [{i for i, degree in enumerate(x.poly.degrees()) if degree > 0} for x in factors if len(x) == 1]
-    for pair in ring.pairs:
-        for zero, other in ((pair.sine, pair.cosine), (pair.cosine, pair.sine)):
-            if any(zero in each and each <= constant | {zero} for each in held):
-                return any(_vanish_at(factors, zero, other, value) for value in (1, -1))
-    return True
-
-
-def _vanish_at(factors: Sequence[Expr], zero: int, other: int, value: int) -> bool:
-    """Whether all may be 0 where a sine or cosine is 0 and its `other` is 1 or -1."""
-    ring = factors[0].ring
-    point = {zero: ring.zero.poly, other: ring.constant(value).poly}
-    there = [ring.put(factor, point) for factor in factors]
-    return not any(is_positive(left * left) for left in there)
+            yield divisor
 
 
 # -- the way to an unknown: components turned, squared and added, then sorted ----------------------

@@ -67,6 +67,13 @@ def test_what_always_is_and_what_never_is_are_no_conditions() -> None:
     assert "q₁ is free" not in text
 
 
+def test_where_an_angle_is_free_nothing_is_divided_by_0_and_positive_lengths_are_positive() -> None:
+    """2b + d2 and d2 are 0 for b = 0 alone; d3 s2 and d3 c2 for d3 = 0, by which was divided."""
+    plane = "dh: [{theta: q1*, a: b}, {theta: 30deg, alpha: 90deg}, {d: d2*}]\ntask: [tip.x, tip.y]"
+    assert "is free" not in told(plane)
+    assert "is free" not in told("dh: [{theta: q1*, alpha: 45deg}, {theta: q2*, alpha: 90deg}, {d: q3*}]")
+
+
 def test_no_square_of_a_number_stands_under_a_root() -> None:
     text = told("dh: [{theta: q1*, a: b, alpha: 30deg}, {d: q2*, alpha: 60deg}, {d: q3*}]\nreach: [u, v, w]")
     assert "q₃ = -q₂/2 ± √(u² + v² - b²) Note: This equation has solutions where u² + v² - b² ≥ 0" in text
