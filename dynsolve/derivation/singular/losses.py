@@ -9,7 +9,7 @@ signs, a w of these columns; it is one of J where the rank is k.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from msgspec import Struct
@@ -65,7 +65,7 @@ def loss(
     conditions: Sequence[Condition],
     greatest: int,
     everywhere: Sequence[Direction] = (),
-    nonzero: Set[Expr] = frozenset(),
+    nonzero: frozenset[Expr] = frozenset(),
 ) -> Loss:
     """What a Jacobian of greatest rank `greatest` loses where conditions hold, beside what is lost anyhow.
 
@@ -106,7 +106,7 @@ def _parted(
     there = [_reduced(one, conditions) for one in everywhere]
     if any(all(value.is_zero for value in one) for one in there):
         return directions, 0
-    kept = [_without_shared(one) for one in there]
+    kept = [_without_shared(one, conditions) for one in there]
     if not _has_rank(Matrix.of(ring, kept), len(kept), conditions):
         return directions, 0
     found: list[Direction] = []
@@ -129,7 +129,9 @@ def _has_rank(matrix: Matrix, k: int, conditions: Sequence[Condition]) -> bool:
     return any(not follows(minor, known) for minor in minors(matrix, k))
 
 
-def _has_rank_everywhere(matrix: Matrix, k: int, conditions: Sequence[Condition], nonzero: Set[Expr]) -> bool:
+def _has_rank_everywhere(
+    matrix: Matrix, k: int, conditions: Sequence[Condition], nonzero: frozenset[Expr]
+) -> bool:
     """Whether some minor of size k is not 0, wherever the conditions hold, whatever the parameters are."""
     values = [*(condition.expr for condition in conditions), *minors(matrix, k)]
     return never_hold(values, nonzero)
@@ -163,7 +165,8 @@ def _direction(
         values = dict(zip(rows, _reduced(choice.cofactors(), conditions), strict=True))
         if not follows(values[row], known):
             zero = matrix.ring.zero
-            direction = _without_shared(tuple(values.get(i, zero) for i in range(len(matrix.rows))))
+            direction = tuple(values.get(i, zero) for i in range(len(matrix.rows)))
+            direction = _without_shared(direction, conditions)
             if all(follows(matrix.ring.dot(direction, column), known) for column in matrix.T.rows):
                 found.append(direction)
                 if is_large:
@@ -200,14 +203,25 @@ def _reduced(values: Sequence[Expr], conditions: Sequence[Condition]) -> tuple[E
     return tuple(values)
 
 
-def _without_shared(direction: Direction) -> Direction:
+def _without_shared(direction: Direction, conditions: Sequence[Condition]) -> Direction:
     """w without the factors that all of its components have, and with few minus signs."""
     values = [value for value in direction if not value.is_zero]
     for factor, times in trig_factors(min(values, key=len)):
         for _ in range(times):
-            divided = [trig_quotient(value, factor) for value in direction]
-            if any(value is None for value in divided):
+            left = [_divided(value, factor, conditions) for value in direction]
+            if any(value is None for value in left):
                 break
-            direction = tuple(value for value in divided if value is not None)
+            direction = tuple(value for value in left if value is not None)
     sign = -1 if all(f < 0 for value in direction for f in value.poly.coeffs()) else 1
     return tuple(value * (sign / content(direction)) for value in direction)
+
+
+def _divided(value: Expr, factor: Expr, conditions: Sequence[Condition]) -> Expr | None:
+    """value / factor where conditions hold, also times a cosine that is 1 or -1; None where not seen."""
+    if (found := trig_quotient(value, factor)) is not None:
+        return found
+    for one in conditions:
+        for unit in one.units:
+            if (found := trig_quotient(one.reduced(value * unit), factor)) is not None:
+                return one.reduced(found * unit)
+    return None

@@ -129,7 +129,7 @@ def singular_set(jacobian: Matrix) -> SingularSet | None:
         return None
     exist = {one: bounds for one in alternatives if (bounds := existence(one)) is not None}
     everywhere = lost_everywhere(jacobian, pivots + rank) if exist else ()
-    nonzero = {*special.factors}
+    nonzero = frozenset(special.factors)
     losses = tuple(loss(jacobian, (pivots, rest), one, pivots + rank, everywhere, nonzero) for one in exist)
     told = tuple(factor for factor in special.factors if len(factor) <= MOST_SPECIAL_TERMS)
     return SingularSet(
@@ -219,11 +219,11 @@ class _Cases(Struct, dict=True):
         alone = [_without(value, shared) for value in left]
         for factor in chosen:
             condition, parts = Condition(factor), squares(factor)
-            values = left if factor in shared else alone
+            kept = left if factor in shared else alone
             if len(parts) > 1:
-                yield from self.of((*parts, *values), held)
+                yield from self.of((*parts, *kept), held)
             elif not held or self._can_hold([*known, factor]):
-                rest = tuple(self._reduced(value, condition) for value in values)
+                rest = tuple(self._reduced(value, condition) for value in kept)
                 yield from self.of(rest, tuple(dict.fromkeys((*held, condition))))
 
     def _settled(self, held: Alternative) -> Iterator[Alternative]:

@@ -16,7 +16,7 @@ the matrix is 1 more than that of the rest.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -80,7 +80,7 @@ def obstacles(values: Sequence[Expr]) -> list[Expr]:
     return _still([_exact_terms(value.ring, value.poly) for value in values], values[0].ring)
 
 
-def never_hold(values: Sequence[Expr], nonzero: Set[Expr] = frozenset()) -> bool:
+def never_hold(values: Sequence[Expr], nonzero: frozenset[Expr] = frozenset()) -> bool:
     """Whether expressions are found to be 0 together for no positive parameters, `nonzero` factors not 0."""
     return not can_hold(values) and any(
         nonzero.issuperset(ParameterSigns().open_factors(one)) for one in obstacles(values)
@@ -251,6 +251,13 @@ class Condition(Struct, frozen=True, dict=True):
     def fixes_coordinate(self) -> bool:
         """Whether an angle has few values, or a length one, where this holds."""
         return bool(self._turn or self._given or self._length)
+
+    @property
+    def units(self) -> tuple[Expr, ...]:
+        """The sine or the cosine that is 1 or -1 where this holds."""
+        ends = ((pair.sine, sine, pair.cosine, cosine) for pair, sine, cosine in self._turn)
+        found = (end for s, sine, c, cosine in ends for end, at in ((s, sine), (c, cosine)) if at is None)
+        return tuple(map(self.expr.ring.generator, found))
 
     @property
     def fixes_length(self) -> bool:

@@ -137,3 +137,14 @@ dh:
 find: [singular]
 """
     assert dynsolve.solve(arm).to_json()["results"]["singular"]
+
+
+def test_a_direction_loses_factors_that_are_the_same_where_a_cosine_is_1_or_minus_1() -> None:
+    """At s2 = 0, where c2² = 1, s1 c2 c3 + c1 s3 is c2 (s1 c3 + c1 c2 s3)."""
+    wrist = """
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, alpha: -90deg}, {theta: q3*, a: l, alpha: 90deg}]
+task: pose
+find: [singular]
+"""
+    (step,) = (step for step in dynsolve.solve(wrist).steps if step.id == "singular_1")
+    assert "w₂ = [[0], [0], [sin(q₁) cos(q₂)], [-l cos(q₃)], [0], [0]]" in map(to_unicode, step.result)
