@@ -371,8 +371,8 @@ masses: [{mass: 8, link: 1, center: tip, inertia: {zz: 1/6}}]
     [
         ("1/6", None, "𝐃 = [13/6] kg m²", False),
         ("1/6", 3, "𝐃 ≈ [2.17] kg m²", True),
-        ("0.5", None, "𝐃 = [2.5] kg m²", True),
-        ("5e-1", None, "𝐃 = [2.5] kg m²", True),
+        ("0.5", None, "𝐃 = [2.5] kg m²", False),
+        ("5e-1", None, "𝐃 = [2.5] kg m²", False),
     ],
 )
 def test_numbers_are_decimals_where_one_is(written: str, digits: int | None, D: str, rounded: bool) -> None:
