@@ -16,7 +16,18 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation import text
 from dynsolve.notation.build import negated, split_sign, times, total
 from dynsolve.notation.characters import split
-from dynsolve.notation.tree import Negative, Node, Number, Product, Quotient, Sum, Symbol, walk
+from dynsolve.notation.tree import (
+    Negative,
+    Node,
+    Number,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+    mapped,
+    names_in,
+    walk,
+)
 from dynsolve.problem.bodies import ParsedShape
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Record
@@ -89,7 +100,7 @@ def build_robot(
         from dynsolve.problem.acting import actions
 
         robot = replace(robot, actions=actions(values, parsed.acting))
-    robot = replace(robot, sums=(*_deflections(robot), *_differences(parsed.cells, has_decimals)))
+    robot = replace(robot, sums=(*_deflections(robot), *_differences(parsed.cells, robot)))
     robot = with_questions(values, robot, parsed.questions, points, asked, parsed.normals is not None)
     robot = _with_candidates(values, parsed, robot)
     return None if faults.errors else robot
@@ -118,14 +129,21 @@ def _deflections(robot: Robot) -> Iterator[Sum]:
                 yield deflection
 
 
-def _differences(cells: Iterable[Cell], decimal: bool) -> Iterator[Sum]:
-    """The differences of letters, numbers and multiples of letters in cells, as they are printed."""
+def _differences(cells: Iterable[Cell], robot: Robot) -> Iterator[Sum]:
+    """The differences of letters, numbers, multiples of letters in cells, as they are printed; and rates."""
     for node in walk(*(cell.tree for cell in cells)):
         if isinstance(node, Sum) and any(isinstance(term, Negative) for term in node.terms):
-            terms = [_multiple(term, decimal) for term in node.terms]
+            terms = [_multiple(term, robot.has_decimals) for term in node.terms]
             printed = total([term for term in terms if term is not None])
-            if None not in terms and isinstance(printed, Sum):
-                yield printed
+            if None in terms or not isinstance(printed, Sum):
+                continue
+            yield printed
+            if all(names_in(term) & {*robot.ring.names} for term in printed.terms):
+                yield Sum(tuple(mapped(term, _rate) for term in printed.terms))
+
+
+def _rate(node: Node) -> Node:
+    return Symbol(node.name, 1) if isinstance(node, Symbol) else node
 
 
 def _multiple(term: Node, decimal: bool) -> Node | None:

@@ -30,6 +30,7 @@ from dynsolve.algebra.compact.terms import (
     join,
     joined_pair,
     multiply,
+    primitive,
     rational_root,
     whole_content,
 )
@@ -75,7 +76,14 @@ class Collector:
     A sum is written once and remembered: PUMA 560 would take half as long again without.
     """
 
-    def __init__(self, atoms: AtomTable, *, decimal: bool = False, typed: Collection[Rational] = ()) -> None:
+    def __init__(
+        self,
+        atoms: AtomTable,
+        *,
+        decimal: bool = False,
+        typed: Collection[Rational] = (),
+        spelled: Iterable[Sum] = (),
+    ) -> None:
         self.atoms = atoms
         self.decimal = decimal
         self.typed = typed
@@ -85,6 +93,7 @@ class Collector:
         self._products: dict[tuple[Rational, Monomial, tuple[Node, ...]], Node] = {}
         self._decomposed: dict[Node, tuple[Rational, Monomial]] = {}
         self._places: dict[Monomial, tuple[object, ...]] = {}
+        self._spelled = dict(primitive(self._terms(one)) for one in spelled)
 
     def cost(self, node: Node) -> int:
         """The operations of a tree, counted once a tree."""
@@ -345,6 +354,10 @@ class Collector:
                 return factor**p, tuple((atom, e * p) for atom, e in mono)
         return 1, ((self.atoms.number(node), 1),)
 
+    def _terms(self, node: Node) -> Polynomial:
+        """A sum as a polynomial."""
+        return {mono: f for f, mono in map(self.decompose, summands(node))}
+
     def sum_of(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
         """Σ factor · monomial · tree, with what the products share drawn out."""
         return self.form(self.added(products))
@@ -499,9 +512,10 @@ class Collector:
         if self.atoms.ranks[y][0] is Rank.COORDINATE is not self.atoms.ranks[x][0] and ratio < 0:
             x, y, ratio = y, x, exact(1, ratio)
         node = self._sum_node(x, y, ratio)
-        terms = {mono: f for f, mono in map(self.decompose, summands(node))}
-        size = self._typed_in(terms) or 1
-        if size != 1:  # θ - 20z is -20(z - 0.05 θ)
+        terms = self._terms(node)
+        key, scale = primitive(terms)
+        size = exact(scale, self._spelled[key]) if key in self._spelled else self._typed_in(terms) or 1
+        if size != 1:  # θ - 20z is -20(z - 0.05 θ), where that or 0.05 was typed
             node = total([self.product(exact(f, size), mono, ()) for mono, f in self.ordered(terms)])
         whole = self.atoms.number(node)
         return {

@@ -39,7 +39,7 @@ from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.errors import attempted, warn_left_out
 from dynsolve.notation import tree
 from dynsolve.notation.build import times, total
-from dynsolve.notation.tree import ZERO, Node
+from dynsolve.notation.tree import ZERO, Node, walk
 
 MUCH_CHEAPER = 0.75
 """Energies, momenta, torques stay collected by velocities unless another order costs less than this part."""
@@ -64,7 +64,7 @@ class Compactor:
     mentions them; `parallel` are groups of coordinates that turn about parallel axes;
     `decimal` says that numbers are decimals, which are not drawn out of sums, unless that leaves those
     that were `typed`;
-    `spelled` are sums as they are written wherever they are a factor;
+    `spelled` are sums as they are written wherever they are a factor, of rates up to their sign;
     `angles_outside` that masses are never collected outside sines and cosines; from `large` terms
     on one way of collecting is tried and not two.
 
@@ -93,9 +93,10 @@ class Compactor:
         self.ring = ring
         self._groups = angle_groups(ring, parallel)
         self._atoms = RingAtoms(ring, leading, self._groups, self.form)
-        self.collector = Collector(self._atoms.table, decimal=decimal, typed=typed)
+        self.collector = Collector(self._atoms.table, decimal=decimal, typed=typed, spelled=spelled)
         self._proof = Proof(ring)
-        self._spelled = spelled
+        rates = {symbol for one in spelled for symbol in walk(one) if getattr(symbol, "dots", 0)}
+        self._spelled = [one for one in spelled if rates.isdisjoint(walk(one))]
         self._angles_outside = angles_outside
         self._large = large
         # The entries of D and C come again in the steps and in τ; a 7R arm would take a sixth longer without.

@@ -371,6 +371,22 @@ def test_a_difference_is_written_as_it_was_typed_wherever_it_is_a_factor(arm: st
     assert to_unicode(forms("D")) == f"[[m ({arm})²]]"
 
 
+@pytest.mark.parametrize(
+    ("turn", "inertia", "energy"),
+    [
+        ("q2 - q1/0.1", "J", "½ J (q̇₂ - 10q̇₁)²"),
+        ("q2 - q1/0.1", "0.004", "½·0.004 (q̇₂ - 10q̇₁)²"),
+        ("q2 - 5*q1", "J", "½ J (q̇₂ - 5q̇₁)²"),
+        ("q1/0.3 - q2", "J", "½ J (10q̇₁/3 - q̇₂)²"),
+    ],
+)
+def test_a_rate_is_written_as_its_angle_was_typed(turn: str, inertia: str, energy: str) -> None:
+    body = f"{{mass: 2, at: [q1, 0, 0], turn: {turn}, inertia: {{zz: {inertia}}}}}"
+    model = f"{{coordinates: {{q1: prismatic, q2: revolute}}, bodies: [{body}]}}"
+    problem = read_problem(f"gravity: none\nmodel: {model}\n")
+    assert to_unicode(Forms(problem.robot, derive(problem.robot))("Kw1")) == energy
+
+
 def test_a_number_beside_a_parameter_takes_the_sign_that_saves_a_minus() -> None:
     mass = "{mass: m, center: [-0.1, 0, 0], link: 1}"
     problem = read_problem(f"gravity: [0, -g, 0]\ndh: [{{theta: q1*, a: R}}]\nmasses: [{mass}]\n")
