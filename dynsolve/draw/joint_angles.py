@@ -113,9 +113,15 @@ def parallels(robot: Robot, pose: Pose) -> list[tuple[str, int] | None]:
     return found
 
 
-def has_offsets(pose: Pose) -> bool:
-    """Whether some angle is drawn in two parts."""
-    return any(leg.offset and (pose.view.flat or not _has_ring(pose, leg)) for _, leg in _turning(pose))
+def offsets(pose: Pose) -> list[float]:
+    """What is drawn of some angles as a second part."""
+    shown = [leg.offset for _, leg in _turning(pose) if pose.view.flat or not _has_ring(pose, leg)]
+    return [offset for offset in shown if NEAR <= abs(offset) <= math.pi - NEAR]
+
+
+def is_right(offset: float) -> bool:
+    """Whether an angle is drawn as a square corner."""
+    return abs(abs(offset) - math.pi / 2) < NEAR
 
 
 def has_rings(pose: Pose) -> bool:
@@ -175,7 +181,7 @@ def _offset(center: Vector, leg: Leg, pose: Pose, notes: Notes) -> None:
     size = abs(leg.offset)
     if size < NEAR or size > math.pi - NEAR:
         return
-    if abs(size - math.pi / 2) < NEAR:
+    if is_right(size):
         corners = (leg.turned, add(leg.turned, leg.after), leg.after)
         wide = _SQUARE if view.flat else _CLEAR
         square = paths.line(*(moved(at, view.direction(corner), wide) for corner in corners))

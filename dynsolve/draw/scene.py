@@ -20,7 +20,7 @@ from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.derivation.rules import derive
 from dynsolve.draw import paths, poses
 from dynsolve.draw.forces import FORCES, MOMENTS, TURNING, drawn_forces, forces, is_turning
-from dynsolve.draw.joint_angles import has_offsets, has_rings, joint_angles, names_of_angles, parallels
+from dynsolve.draw.joint_angles import has_rings, is_right, joint_angles, names_of_angles, offsets, parallels
 from dynsolve.draw.labels import Box, Label, Taken, bounds, place
 from dynsolve.draw.lengths import WORLD, Length, dimensions, has_world, moves, row_lengths, tilt, world_frame
 from dynsolve.draw.mass_centers import DrawnBody, Form
@@ -135,7 +135,8 @@ WITHOUT_FRAMES = "The manipulator; not to scale."
 PARALLELS = "Dashed grey lines at a joint are parallel to the directions between which its angle is measured."
 """Said where one of them is parallel to no x axis, since degrees are added to its angle."""
 
-OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey; a square corner is 90°."
+OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey."
+CORNERS = "A square corner is 90°."
 RINGS = "A red arrow around an axis shows the positive sense of the angle."
 IN_METRES = "Lengths are in m."
 SHAPES = "Uniform bodies of a given shape are tan, the rest of the arm is blue-grey."
@@ -227,7 +228,8 @@ def _caption(
         (WORLD, has_world(robot, values)),
         (same_axis, has_world(robot, values) and len(robot.base_turns) == 1),
         (_parallel(dashed), bool(dashed)),
-        (OFFSETS, has_offsets(pose)),
+        (OFFSETS, bool(offsets(pose))),
+        (CORNERS, any(map(is_right, offsets(pose)))),
         (RINGS, has_rings(pose)),
         (SHAPES, any(path.fill in astuple(BODY) for path in body)),
         (POINTS, any(mass.is_point for mass in pose.skeleton.masses)),

@@ -7,11 +7,12 @@ from collections.abc import Iterator
 
 import pytest
 
-from dynsolve.draw.joint_angles import has_offsets, joint_angles, names_of_angles, parallels
+from dynsolve.draw.joint_angles import joint_angles, names_of_angles, offsets, parallels
 from dynsolve.draw.labels import Taken
 from dynsolve.draw.paths import GREY, VARIABLE, flattened
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.poses import Notes, Pose, reach_of_axis
+from dynsolve.draw.scene import CORNERS, OFFSETS, scene
 from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.draw.vectors import Point, Vector, add, cross, dot, scale
 from dynsolve.notation.printing import Style
@@ -110,7 +111,9 @@ def test_degrees_beside_a_coordinate_are_drawn_apart(column: str, name: str, deg
     assert [to_unicode(label.node, notes.style) for label in notes.wanted if label.kind == "variable"] == [
         name
     ]
-    assert has_offsets(pose) is bool(degrees)
+    assert offsets(pose) == pytest.approx([math.radians(degrees)] * bool(degrees))
+    caption = scene(problem).caption
+    assert (OFFSETS in caption, CORNERS in caption) == (bool(degrees), abs(degrees) == 90)
 
 
 def test_a_negative_angle_is_drawn_the_other_way() -> None:
