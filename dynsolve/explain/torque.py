@@ -35,13 +35,14 @@ def steps(context: Context) -> Iterator[Step]:
 def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
     i, driven = q.index, say("{q}{driven}", q=Symbol(q.name), driven=_driven_by(context, q))
     why: Prose = ()
+    asked = context.robot.questions
     if i == 1:
         why = say(
             "In $∂ℒ/∂q̇_i$ and $∂ℒ/∂q_i$ everything else is held fixed; in d/dt all that changes with time is "
             "differentiated (product and chain rule).{collected}{outside}{held}",
             collected=_of_new_angles(context),
-            outside=say(" $Q_i$ is what acts from outside.") if context.robot.questions.loads else "",
-            held=say(" $𝐀_cᵀ 𝛌$ is what the constraints do.") if context.robot.questions.constraints else "",
+            outside=say(" $Q_i$, entry $i$ of $𝐐$, is what acts from outside.") if asked.loads else "",
+            held=say(" $𝐀_cᵀ 𝛌$ is what the constraints do.") if asked.constraints else "",
         )
     passive = context.robot.actions.passive
     if i - 1 in passive or (passive and not turns(q)):
@@ -102,11 +103,8 @@ def _of_new_angles(context: Context) -> Prose:
     """What sines and cosines stand for whose angles are met first in these results."""
     if context.is_in_letters:
         return ()
-    made = [
-        context.result(f"{stem}{q.index}")
-        for q in context.robot.coordinates
-        for stem in ("ddt", "dLdq", "tau")
-    ]
+    stems = ("ddt", "dLdq", "tau")
+    made = [context.result(f"{stem}{q.index}") for q in context.robot.coordinates for stem in stems]
     made += [one.meaning for one in context.names.sums] if context.names else []
     new = new_angles(context.robot.ring, [context.form("L")], made)
     return say(" The results are collected with {these}.", these=listed(new)) if new else ()

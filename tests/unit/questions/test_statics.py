@@ -133,3 +133,11 @@ def test_nothing_but_0_holds_what_no_motor_drives() -> None:
 def test_the_axes_of_a_force_are_given(axes: str, told: str) -> None:
     text = f"{ELBOW}forces: [{{link: 2, force: [F, 0, 0], in: {axes}}}]\nfind: [Q]\n"
     assert told in " ".join(report(dynsolve.solve(text), Format.TEXT).decode().split())
+
+
+def test_an_entry_of_what_acts_from_outside_is_told_by_its_vector() -> None:
+    """Beside a force Q₁ of the problem its letter is another than that of 𝐐."""
+    loaded = "masses: [{mass: m, link: 2}]\nforces: [{link: 2, force: [Q1, 0, 0]}]\nfind: [tau]"
+    text = f"gravity: none\n{ELBOW}{loaded}"
+    told = " ".join(report(dynsolve.solve(text), Format.TEXT).decode().split())
+    assert "Ξᵢ, entry i of 𝐐, is what acts from outside." in told
