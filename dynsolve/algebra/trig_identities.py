@@ -16,6 +16,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from itertools import islice
 from math import prod
+from operator import sub
 from typing import NamedTuple
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
@@ -270,11 +271,14 @@ class _Independent:
         for _ in range(ROUNDS):
             for each, relation in relations:
                 common: dict[tuple[int, ...], int] = {}
-                for term in relation.to_dict():
-                    for one in known:
-                        cofactor = tuple(int(a) - int(b) for a, b in zip(one, term, strict=True))
-                        if min(cofactor) >= 0:
-                            common[cofactor] = common.get(cofactor, 0) + 1
+                for term in relation.monoms():
+                    multiples: Iterable[tuple[int, ...]] = known
+                    for place, power in enumerate(term):
+                        if power:
+                            multiples = [one for one in multiples if one[place] >= power]
+                    for one in multiples:
+                        cofactor = tuple(map(sub, one, term))
+                        common[cofactor] = common.get(cofactor, 0) + 1
                 for cofactor, count in common.items():
                     if count > 1 and (each, cofactor) not in found:
                         found[each, cofactor] = self._normal(relation * self.ctx.from_dict({cofactor: 1}))
