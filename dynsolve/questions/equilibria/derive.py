@@ -21,8 +21,8 @@ def rules(robot: Robot) -> Iterator[Rule]:
         yield Rule("equilibria", ("D", "C", "g"), partial(linearization.steady_equilibria, robot))
     elif robot.questions.constraints:
         yield Rule("equilibria", ("g", "Ac", "hc"), partial(constrained_equilibria, robot))
-    else:  # a model may have coordinates that move no body somewhere
-        yield Rule("equilibria", ("g",) if robot.has_table else ("g", "D"), partial(equilibria, robot))
+    else:
+        yield Rule("equilibria", ("g", "D"), partial(equilibria, robot))
     if robot.questions.model.linearize:
         acting = (*outside_names(robot), *robot.actions.resistance)
         yield Rule("linear_A", ("D", "g", *acting), partial(linearization.state_matrix, robot))

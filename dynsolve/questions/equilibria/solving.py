@@ -163,8 +163,8 @@ def equilibria(
     """The configurations where the forces (n×1) are 0 in every row that no motor holds.
 
     The forces are derivatives of an energy: g(q), or those of steady motion; `may_be_held` is that of
-    `Curvature`.  Where constraints act, they are `held` by these multipliers.  What a model has
-    as coordinates may move no body somewhere, by D, its `inertia`: r = 0 of a mass that falls has g = 0, too.
+    `Curvature`.  Where constraints act, they are `held` by these multipliers.  Coordinates
+    may move no body somewhere, by D, the `inertia`: r = 0 of a mass that falls has g = 0, too.
     """
     wanted = [forces[k, 0] for k in wanted_rows(robot)] if held is None else [*held.zeros(held.rank)]
     if sum(map(len, wanted)) > MOST_TERMS:
@@ -258,8 +258,8 @@ class _Search:
         return len(own) == len(theirs) == len(rows([*own, *theirs])) and divided.is_empty
 
     def _singular(self, cases: Iterable[Alternative], inertia: Matrix | None) -> list[Alternative]:
-        """Cases in which a coordinate of a model describes nothing."""
-        if inertia is None or self.robot.has_table:
+        """Cases in which a coordinate describes nothing."""
+        if inertia is None:
             return []
         mass, free = inertia.map(self.there), wanted_rows(self.robot)
         return [one for one in cases if _is_singular(mass, one, free)]

@@ -1156,6 +1156,21 @@ def test_where_coordinates_do_not_tell_how_bodies_move_nothing_need_be_in_equili
     assert ("need not be an equilibrium" in str(told_of(text).outcome)) == is_doubtful
 
 
+def test_a_table_and_a_model_of_one_mechanism_have_the_same_equilibria() -> None:
+    """At r = 0 the point mass is at the pivot, and what turns has no inertia."""
+    table = """
+gravity: [0, -g, 0]
+dh: [{theta: q1* + 90deg, alpha: 90deg}, {d: r*}]
+masses: [{mass: m, link: 2, center: origin}]
+springs: [{stiffness: k, of: r, rest: r0}]
+find: [equilibria]
+"""
+    assert dynsolve.solve(table).to_json()["results"]["equilibria"] == [
+        ["k*(r - r0) + m*g*sin(q1) = 0", "cos(q1) = 0"]
+    ]
+    assert "need not be an equilibrium" in str(told_of(table).outcome)
+
+
 FLAT = "x: prismatic, y: prismatic"
 
 
