@@ -62,6 +62,7 @@ from dynsolve.notation.rounding import is_rounded, marked, marked_among_words
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
+    Letter,
     Matrix,
     Node,
     Number,
@@ -140,12 +141,32 @@ def _with_units(step: Step, known: Mapping[Node, str], style: Style, given: froz
     def measure(nodes: Iterable[Node], otherwise: str = "") -> tuple[Node, ...]:
         return tuple(_measured(node, known, otherwise, style, given) for node in nodes)
 
+    if step.id.startswith("I_given"):
+        of_parts = _OF_INTEGRALS["I"]
+    if step.id.startswith("density"):
+        known = {**known, **dict(_of_integrals(step))}
+        step = replace(
+            step, lines=tuple(replace(line, formulas=measure(line.formulas)) for line in step.lines)
+        )
     return replace(
         step,
         further=measure(step.further, of_center),
         working=measure(step.working),
         result=measure(step.result, of_parts),
     )
+
+
+_OF_INTEGRALS = {"m": "kg", "x": "m", "I": "kg m^2"}
+"""The units of what is found by integration, by its letter."""
+
+
+def _of_integrals(step: Step) -> Iterator[tuple[Node, str]]:
+    """The left sides of a step by integration with their units; m x_c is a first moment."""
+    for node in (*(node for line in step.lines for node in line.formulas), *step.result):
+        if isinstance(node, Relation):
+            left = node.parts[0]
+            unit = _OF_INTEGRALS.get(left.base) if isinstance(left, Letter) else "kg m"
+            yield from [(left, unit)] if unit else ()
 
 
 def _measured(

@@ -393,3 +393,23 @@ def test_a_number_beside_letters_is_exact_where_its_fraction_is_short(length: st
 def test_half_of_a_whole_number_is_multiplied() -> None:
     solution = dynsolve.solve(FRACTIONS.replace("1/2", "1.0"))
     assert to_unicode(solution.forms("Kv1"), solution.style) == "4q̇₁²"
+
+
+INTEGRATED = """
+gravity: [0, -9.81, 0]
+dh: [{theta: q1*, a: 0.9}, {theta: q2*, a: 0.6}]
+masses:
+  - {link: 1, shape: {rod: {length: 0.9, density: 2*(1 + x/0.9)}}}
+  - {mass: 1.75, link: 2, center: {near: [0.11, -0.02, 0]}, inertia: {zz: 0.013}, about: joint}
+"""
+
+
+def test_what_is_found_by_integration_and_a_tensor_that_is_moved_have_units() -> None:
+    text = report(dynsolve.solve(INTEGRATED), Format.TEXT).decode()
+    mass, first, center, moment = (
+        "dx = 2.7 kg\n",
+        "x dx = 1.35 kg m\n",
+        "x_c1 = 0.5 m\n",
+        "x² dx = 0.8505 kg m²\n",
+    )
+    assert all(told in text for told in (mass, first, center, moment, "(𝐈_{2,given})_zz = 0.013 kg m²\n"))
