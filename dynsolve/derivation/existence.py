@@ -18,6 +18,8 @@ from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.algebra.ring_values import with_symbols
+from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import ParameterSigns, rank
 
 DEGREES = {(0, 1): 0, (1, 0): 90, (0, -1): 180, (-1, 0): 270}
@@ -172,13 +174,13 @@ def _is_zero(value: Expr) -> bool:
 
 
 def rests(values: Sequence[Expr]) -> Iterator[Pose]:
-    """The quarter turns at which k φ - m g l sin φ is 0: values in which an angle stands by itself, too.
-
-    None where a length stands in them.
-    """
-    if not values or all(_swings(value) is not None for value in values):
+    """The quarter turns at which k φ - m g l sin φ is 0, or sin φ + sin ψ; none where lengths stand there."""
+    if not values:
         return
-    kinds = dict(values[0].ring.coordinates)
+    ring = values[0].ring
+    if not ring.has_symbol("pi"):  # half a turn of a spring
+        values = [*map(Transfer(ring, with_symbols(ring, ["pi"])), values)]
+    kinds = dict(ring.coordinates)
     if all(kinds[name] == "revolute" for value in values for name in _coordinates(value)):
         yield from (pose for pose, at in _at_quarters(values) if pose and all(map(_is_zero, at)))
 

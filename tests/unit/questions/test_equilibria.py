@@ -1405,3 +1405,36 @@ def test_a_pose_is_told_once() -> None:
     )
     told = dynsolve.solve(equal).to_json()["results"]["equilibria_stability"]
     assert [point["q3"] for point in told[1]] == ["pi"] * 4
+
+
+@pytest.mark.parametrize(
+    ("spring", "stable"),
+    [
+        ("{stiffness: k, of: a - b}", {("0", "0"): "stable", ("pi", "pi"): "unstable"}),
+        (
+            "{energy: k*l^2*(1 - cos(a - b))}",
+            {
+                ("0", "0"): "stable",
+                ("0", "pi"): "unstable",
+                ("pi", "0"): "unstable",
+                ("pi", "pi"): "unstable",
+            },
+        ),
+    ],
+)
+def test_the_quarter_turns_of_coupled_pendulums_are_told(
+    spring: str, stable: dict[tuple[str, str], str]
+) -> None:
+    """By hand: hanging is least; upright -m g l + k on the diagonal makes the sum of the minors negative."""
+    problem = f"""
+gravity: [0, -g, 0]
+model:
+  coordinates: {{a: revolute, b: revolute}}
+  bodies:
+    - {{mass: m, at: [l*sin(a), -l*cos(a), 0]}}
+    - {{mass: m, at: [d + l*sin(b), -l*cos(b), 0]}}
+springs: [{spring}]
+find: [equilibria]
+"""
+    (told,) = dynsolve.solve(problem).to_json()["results"]["equilibria_stability"]
+    assert {(one["a"], one["b"]): one["stability"] for one in told if "a" in one} == stable
