@@ -16,8 +16,10 @@ from fractions import Fraction
 from flint import fmpq_mat
 
 from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational
+from dynsolve.algebra.ring import Expr
 from dynsolve.errors import Finding
 from dynsolve.notation.characters import split
 from dynsolve.problem.bodies import ParsedTensor
@@ -29,7 +31,7 @@ from dynsolve.problem.variation import FORMULA, TEXT, faulty_alternatives, scala
 from dynsolve.problem.yaml_nodes import MappingNode, Span
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.geometry import Links, elementary
-from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
+from dynsolve.robot.model import AxesKind, Body, Convention, Joint, JointType, Robot
 from dynsolve.robot.shapes import AXES, KINDS
 from dynsolve.robot.units import INERTIA, LENGTH, MASS, describe
 
@@ -402,20 +404,33 @@ def no_effect(reading: Reading) -> Iterator[Remark]:
 
 
 def unphysical(reading: Reading) -> Iterator[Remark]:
-    """Moments in numbers that no body has: a negative one, or one larger than the sum of the others."""
+    """Moments that no body has: a negative one, or in numbers one larger than the sum of the others."""
     for body, parsed in _bodies(reading):
         if body.inertia is None:
             continue
         moments = [body.inertia[i, i] for i in range(3)]
         numbers = [moment.number for moment in moments if moment.is_number]
         what = ""
-        if any(number < 0 for number in numbers):
+        if any(is_positive(-moment) for moment in moments):
             what = "one is negative"
+        elif any(is_positive(-moment) for moment in _about_center(body)):
+            what = "about the mass centre one is negative"
         elif len(numbers) == 3 and all(numbers) and 2 * max(numbers) > sum(numbers):
             what = "one is larger than the sum of the others"
         if what:
             message = f"body {body.name} cannot have these moments of inertia: {what}"
             yield parsed.span, message, "none may exceed the sum of the other two"
+
+
+def _about_center(body: Body) -> Iterator[Expr]:
+    """I - m d² of each moment that is given about another point, d its distance from the mass centre."""
+    if body.about_point is None or body.inertia is None or body.axes.kind is not AxesKind.LINK:
+        return
+    offset = (body.axes.rotation.T @ (body.center - body.about_point)).entries
+    for i, along in enumerate(offset):
+        if not body.inertia[i, i].is_zero:
+            others = sum((one * one for one in offset if one is not along), start=body.mass.ring.zero)
+            yield body.inertia[i, i] - body.mass * others
 
 
 def _bodies(reading: Reading) -> Iterator[tuple[Body, Record]]:

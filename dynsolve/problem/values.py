@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from msgspec import Struct
 
+from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, value_of
@@ -172,7 +173,7 @@ class PlaceBuilder(Struct, frozen=True):
 def mass_value(values: CellValues, cell: Cell | None, index: int) -> Expr | None:
     """The mass of body `index`; None where a fault of it was reported."""
     mass = values.expr(cell) if cell else None
-    if mass is not None and cell and mass.is_number and mass.number < 0:
+    if mass is not None and cell and is_positive(-mass):
         values.faults.error(cell.span, f"the mass of body {index} is negative", "masses are not negative")
     return mass
 

@@ -103,6 +103,7 @@ BODIES = {
     "the ground": (body("{mass: m1, link: «0»}"), "link 0 is the ground", "from 1 to 2"),
     "a link in words": (body("{mass: m1, link: «one»}"), "a whole number", "from 1 to 2"),
     "a negative mass": (body("{mass: «-2», link: 1}"), "negative", "not negative"),
+    "a negative mass in letters": (body("{mass: «-m2», link: 1}"), "negative", "not negative"),
     "a moving mass": (body("{mass: m1*«theta1», link: 1}"), "contains the coordinate theta1", "constant"),
     "a starred mass": (body("{mass: «m1*», link: 1}"), "the mass of body 1 is constant", "write m1"),
     "a moving centre": (body("{mass: m, link: 1, center: [«theta2», 0, 0]}"), "the coordinate theta2", ""),

@@ -63,6 +63,8 @@ FINDINGS = {
     "drawn-angles without zero": "«axes»: [{turn: q1, about: [0, 0, 1], through: [0, 0, 0]}]\ntip: [0, l, 0]",
     "unphysical and negative": MASS + "  - «{mass: M, link: 1, center: tip, inertia: {zz: -1}}»\n",
     "unphysical": MASS + "  - «{mass: M, link: 1, center: tip, inertia: {xx: 1, yy: 1, zz: 3}}»\n",
+    "unphysical about the mass centre": MASS
+    + "  - «{mass: M, link: 1, center: midpoint, inertia: {zz: M*l1^2/8}, about: joint}»\n",
 }
 
 
