@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm
 
-from dynsolve.algebra.angles import angle_node
+from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.factors import is_positive, ratio
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
@@ -18,6 +18,7 @@ from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.notation.build import cost
 from dynsolve.notation.tree import Function, Node, Number, Power, Quotient, Relation, Symbol, equation
 from dynsolve.questions.equilibria.solving import Equilibria, SpecialCase, assumed_signs
+from dynsolve.questions.equilibria.stability import by_coordinates, quarter_turns, turned
 from dynsolve.questions.set_forms import SetForms, may_vanish
 from dynsolve.robot.model import JointType
 
@@ -58,11 +59,32 @@ class EquilibriaForms(SetForms):
         return tuple(tuple(tuple(map(self.condition, one)) for one in sets) for sets in found.excluded)
 
     def relations(self, case: Alternative, zeros: tuple[Node, ...]) -> list[Node]:
-        """What is 0 in a case, as equations: an angle's tangent, or a length, where these have one value."""
+        """What is 0 in a case, as equations: an angle, its tangent, a length, where these have one value."""
         return [
-            self._tangent(one) or self._length(one) or self._square(one) or equation(value, Number(0))
+            self._angle(one)
+            or self._tangent(one)
+            or self._length(one)
+            or self._square(one)
+            or equation(value, Number(0))
             for one, value in zip(case, zeros, strict=True)
         ]
+
+    def _angle(self, condition: Condition) -> Node | None:
+        """q = 180° where 1 + cos q = 0, or cos(q/2) = 0."""
+        turn = turn_of(condition.expr)
+        if turn is None or not turn.is_one_sided:
+            return None
+        rates = {rate for _, rate in turn.pair.angle.terms}
+        factor = turn.cosine + turn.sine
+        is_one = {factor, -factor} & {turn.rest} or (turn.rest.is_zero and rates == {Fraction(1, 2)})
+        angle, degrees = turned(tuple(quarter_turns(condition)))[0] if is_one else (None, 0)
+        if angle is None:
+            return None
+        moving, fixed = by_coordinates(angle, condition.expr.ring.names)
+        return equation(
+            angle_node(moving, condition.expr.ring.names),
+            angle_node(fixed + Angle(degrees=Fraction(degrees))),
+        )
 
     def _length(self, condition: Condition) -> Node | None:
         """x = b/a where a x = b, and a is a parameter that is not 0; of an angle where b is one, too.

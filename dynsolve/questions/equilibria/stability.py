@@ -20,17 +20,20 @@ from enum import StrEnum
 from fractions import Fraction
 from functools import partial
 from itertools import combinations, permutations, product
+from math import lcm
 from typing import Any
 
+from flint import fmpq_mat
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.angles import Angle, name_alone
 from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, independent
 from dynsolve.algebra.linear_systems import part, rank_parts
 from dynsolve.algebra.matrix import Matrix, determinant, work
+from dynsolve.algebra.rationals import fraction, rational
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.elimination import ParameterSigns, Turn, is_more, turn_of
 from dynsolve.derivation.existence import DEGREES, Pose, conditions, rests, square_of
@@ -55,7 +58,10 @@ Values = tuple[tuple[Pair, int, int], ...]
 
 
 def turned(values: Values) -> list[tuple[Angle, Fraction]]:
-    """The angles that are turned, each with how far in degrees; q/2 by 90° is q by 180°."""
+    """The angles that are turned, each with how far in degrees; q/2 by 90° is q by 180°.
+
+    Where sums of angles fix each coordinate, these are told: q₁ = -90° and q₂ = 0.
+    """
     found = []
     for pair, sine, cosine in values:
         angle, degrees = pair.angle, Fraction(DEGREES[sine, cosine])
@@ -65,7 +71,16 @@ def turned(values: Values) -> list[tuple[Angle, Fraction]]:
         if len(rates) == 1 and (count := 1 / rates.pop()).denominator == 1:
             angle, degrees = angle * count, degrees * count
         found.append((angle, degrees))
-    return found
+    atoms = [*dict.fromkeys(atom for angle, _ in found for atom, _ in angle.terms)]
+    is_of_sums = any(len(angle.terms) > 1 for angle, _ in found)
+    if not is_of_sums or len(atoms) != len(found) or any(angle.degrees for angle, _ in found):
+        return found
+    matrix = [[rational(dict(angle.terms).get(atom, 0)) for atom in atoms] for angle, _ in found]
+    each = fmpq_mat(matrix).solve(fmpq_mat([[rational(degrees)] for _, degrees in found])).entries()
+    return [
+        (Angle(((atom, Fraction(1)),)), 180 - (180 - fraction(own)) % 360)
+        for atom, own in zip(atoms, each, strict=True)
+    ]
 
 
 def by_coordinates(angle: Angle, names: Iterable[str]) -> tuple[Angle, Angle]:
@@ -117,10 +132,25 @@ class Point(Struct, frozen=True):
         return bool(self.conditions or self.nonzero) or self.stability is not Stability.UNDECIDED
 
     def told_at_pose(self) -> tuple[Any, ...]:
-        """What is alike of points between which coordinates that are fixed make whole turns, q/2 = ±90°."""
+        """What is alike of points between which coordinates make whole turns, q/2 = ±90°.
+
+        These are fixed, or do not stand in what is told.
+        """
         rates = [dict(pair.angle.terms) for pair, _, _ in self.values]
         turns = [Fraction(DEGREES[sine, cosine], 360) for _, sine, cosine in self.values]
-        periods = {atom: rate.denominator for one in rates if len(one) == 1 for atom, rate in one.items()}
+        atoms = dict.fromkeys(atom for one in rates for atom in one)
+        told = (*(bound.value for bound in (*self.conditions, *self.inside)), *self.nonzero)
+        open_names = {
+            name
+            for value in told
+            for k, name in enumerate(value.ring.names)
+            if not value.ring.diff(value, k).is_zero
+        }
+        periods = {
+            atom: lcm(*(one[atom].denominator for one in rates if atom in one))
+            for atom in atoms
+            if len(rates) == len(atoms) or name_alone(atom) not in open_names or [atom] in map(list, rates)
+        }
         poses = (
             tuple(
                 (turn + sum(one.get(atom, 0) * whole for atom, whole in zip(periods, times, strict=True))) % 1
