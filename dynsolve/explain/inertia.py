@@ -284,55 +284,43 @@ def _shape(context: Context, body: Body) -> _Told | None:
 
 
 def _parallel_axis(context: Context, body: Body) -> Step:
-    b, tensor = body.name, letters.tensor(context.robot, body)
-    shift = formula("{m} ({square} - 𝐝 𝐝ᵀ)", m=context.mass(body), square=formula("𝐝ᵀ 𝐝 𝐄"))
+    """The tensor brought to the mass centre, or of one that enters by an axis alone the moment about that."""
+    b, axes = body.name, _entering(context, body)
     relative = link_frame.axes_in_link(context.robot, body, context.values[f"H{body.link}"])
     assert body.about_point is not None
     offset = relative.T @ (body.center - body.about_point)
-    if axes := _entering(context, body):
-        return _parallel_to(context, body, axes[0], offset)
+
+    def entering(node: Node) -> Node:
+        return Entry(node, Words(axes[0] * 2)) if axes else node
+
+    tensor = entering(letters.tensor(context.robot, body))
+    shift = Product((context.mass(body), entering(formula("𝐝ᵀ 𝐝 𝐄 - 𝐝 𝐝ᵀ"))))
+    value: Node = context.form(f"I_body{b}")
+    working: tuple[Node, ...] = (formula("𝐝 = {d}", d=factored(context, context.show(offset))),)
+    if axes:
+        place = "xyz".index(axes[0])
+        value = context.matrix(f"I_body{b}").rows[place][place]
+    else:
+        steiner = context.show(link_frame.steiner(body.mass, offset))
+        working, value = (*working, equation(shift, factored(context, steiner))), factored(context, value)
     return Step(
         id=f"I_body{b}",
-        title=f"Parallel axis: the tensor of {name_of(body)} about its mass centre",
+        title=f"Parallel axis: the {'moment' if axes else 'tensor'} of {name_of(body)} about its mass centre",
         why=say(
-            "The given tensor is about another point, but the kinetic energy needs the one about the mass "
-            "centre. $𝐝$ goes from the given point to the mass centre, in the body's axes; $𝐄$ is the "
-            "identity.",
-        ),
-        formula=formula("{I} = 𝐈_({i},'given') - {shift}", I=tensor, i=letters.index_of(b), shift=shift),
-        source="parallel-axis theorem; Craig 6.3",
-        working=(
-            formula("𝐝 = {d}", d=factored(context, context.show(offset))),
-            equation(shift, factored(context, context.show(link_frame.steiner(body.mass, offset)))),
-        ),
-        result=(equation(tensor, factored(context, context.form(f"I_body{b}"))),),
-        said="parallel axis",
-        uses=(),
-    )
-
-
-def _parallel_to(context: Context, body: Body, axis: str, offset: algebra.Matrix) -> Step:
-    """The moment about one axis alone, brought to the mass centre."""
-    place = "xyz".index(axis)
-    moment = Entry(letters.tensor(context.robot, body), Words(axis * 2))
-    form = context.matrix(f"I_body{body.name}").rows[place][place]
-    return Step(
-        id=f"I_body{body.name}",
-        title=f"Parallel axis: the moment of {name_of(body)} about an axis through its mass centre",
-        why=say(
-            "The kinetic energy needs the moment about the parallel axis through the mass centre. $𝐝$ goes "
-            "from the given point to the mass centre, in the body's axes; $𝐄$ is the identity.",
+            "The kinetic energy needs the {what} the mass centre. $𝐝$ goes from the given point to the mass "
+            "centre, in the body's axes; $𝐄$ is the identity.",
+            what="moment about the parallel axis through" if axes else "tensor about",
         ),
         formula=formula(
-            "{moment} = {given} - {m} {shift}",
-            moment=moment,
-            given=Entry(formula("𝐈_({i},'given')", i=letters.index_of(body.name)), Words(axis * 2)),
-            m=context.mass(body),
-            shift=Entry(formula("𝐝ᵀ 𝐝 𝐄 - 𝐝 𝐝ᵀ"), Words(axis * 2)),
+            "{I} = {given} - {shift}",
+            I=tensor,
+            given=entering(formula("𝐈_({i},'given')", i=letters.index_of(b))),
+            shift=shift,
         ),
         source="parallel-axis theorem; Craig 6.3",
-        working=(formula("𝐝 = {d}", d=factored(context, context.show(offset))),),
-        result=(equation(moment, form),),
+        working=working,
+        result=(equation(tensor, value),),
+        said=f"parallel axis {len(axes)}",
         uses=(),
     )
 

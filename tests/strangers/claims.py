@@ -1167,7 +1167,7 @@ Section # has ....
 Where nothing moves: not derived.
 The singular configurations: not derived.
 At given values of q its rank shows whether the arm is singular.
-The kinetic energy needs the moment about the parallel axis through the mass centre.
+The kinetic energy needs the <moment about the parallel axis through|tensor about> the mass centre.
 The first of the relative coordinates of a chain does not occur.
 The entries of {}, below, are chosen: independent ones of which all of these are combinations.
 Other independent combinations serve as well:

@@ -106,7 +106,7 @@ friction: {q1: {viscous: b}, q2: {viscous: %s}}
         "On q₁ acts viscous friction of coefficient b. On q₂ acts viscous friction of coefficient c."
         in others
     )
-    assert alike.count("The given tensor is about another point") == 1
+    assert alike.count("needs the tensor about the mass centre") == 1
 
 
 def test_a_formula_that_is_the_result_stands_once() -> None:

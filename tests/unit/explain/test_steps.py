@@ -182,7 +182,7 @@ def test_a_turned_base_fixed_rows_and_a_tensor_about_the_joint() -> None:
     assert "above the origin of the world" in text and "above the origin of the base" not in text
     assert "Row 1 has no star: a fixed frame" in text
     assert "Of the tensor of body 1 about the near end of its link the moment" in text
-    assert "Parallel axis: the moment of body 1 about an axis through its mass centre" in text
+    assert "Parallel axis: the moment of body 1 about its mass centre" in text
     assert to_unicode(step(MOVED, "H2").result[0]).startswith("H₂^w = ")
 
 
