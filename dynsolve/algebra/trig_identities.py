@@ -90,10 +90,12 @@ def used_between(ring: Ring, before: Node, after: Node) -> Used | None:
     True
     """
     try:
-        if value_of(ring, before) != value_of(ring, after):
-            return None
         additions = tuple(new_additions(before, after))
-        return _Independent(ring, before, after).used(additions)
+        independent = _Independent(ring, before, after)
+        if used := independent.used(additions):
+            return used
+        is_equal = value_of(ring, before) == value_of(ring, after)
+        return independent.searched(additions) if is_equal else None
     except AlgebraError:
         return None
 
@@ -200,15 +202,13 @@ class _Independent:
 
     # -- what leads from one to the other ----------------------------------------------------------
 
-    def used(self, additions: tuple[Addition, ...]) -> Used:
-        """The addition theorems of new angles with the squares that are needed, if these do; or a search."""
+    def used(self, additions: tuple[Addition, ...]) -> Used | None:
+        """The addition theorems of new angles with the squares that are needed, if these do."""
         put = {(each.name, each.whole): self._added(each) for each in additions}
         before, after = (self._value(tree, put) for tree in self.trees)
         difference = self._normal(before - after)
         squared = self._squared(difference)
-        if not self._modulo(difference, squared):
-            return Used(tuple(squared), additions)
-        return self._searched(additions)
+        return None if self._modulo(difference, squared) else Used(tuple(squared), additions)
 
     def _squared(self, difference: fmpq_mpoly) -> list[Angle]:
         """The angles whose s² + c² = 1 makes a difference 0, or as small as it becomes."""
@@ -226,7 +226,7 @@ class _Independent:
             poly = divmod(poly, self._squares(angle))[1]
         return poly
 
-    def _searched(self, additions: tuple[Addition, ...]) -> Used:
+    def searched(self, additions: tuple[Addition, ...]) -> Used:
         """The candidates of which none can be left out."""
         before, after = (self._value(tree, {}) for tree in self.trees)
         difference = self._normal(before - after)
