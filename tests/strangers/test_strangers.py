@@ -36,10 +36,10 @@ from tests.strangers.oracle import CONDITIONAL, Untrue, random_point, relations,
 from tests.support import json_of
 
 SEEDS = (
-    0, 1, 2, 3, 5, 6, 7, 8, 11, 12, 13, 15, 16, 18, 20, 21, 24, 25, 27, 31, 37, 44, 45, 47, 49, 50,
-    51, 53, 55, 57, 58, 59, 60, 61, 62, 65, 70, 72, 76, 79, 80, 81, 86, 89, 92, 94, 97, 99, 101, 103,
+    1, 2, 3, 5, 6, 7, 8, 13, 15, 16, 18, 21, 23, 24, 25, 31, 37, 44, 45, 47, 49, 53, 55, 58, 60, 61,
+    70, 72, 76, 79, 80, 86, 89, 94, 98, 120, 136, 147,
 )  # fmt: skip
-"""Of the first hundred, those that together reach every function that one of them reaches."""
+"""Of the first 150, those that with `CASES` reach in the least time what the first hundred reach."""
 
 CASES = sorted((Path(__file__).parent / "cases").glob("*.yaml"))
 
