@@ -454,10 +454,15 @@ def _no_term_is_negative(m: Mechanism, s: Sentence) -> bool:
     )  # fmt: skip
 
 
-@says("{} is positive: <body #|the rotors> add[s] {} to {}.")
+@says("{&} <is|are> positive: <body #|the rotors> add[s] ....")
 def _adds(m: Mechanism, s: Sentence) -> bool:
-    d, part, _ = s.formulas
-    return all(m.value(d, p) >= m.value(part, p) * (1 - NEAR) > 0 for p in m.points())
+    named = s.formulas[: len(s.formulas) // 3]
+    parts, entries = s.formulas[len(named) :: 2], s.formulas[len(named) + 1 :: 2]
+    return named == entries and all(
+        m.value(d, p) >= m.value(part, p) * (1 - NEAR) > 0
+        for p in m.points()
+        for part, d in zip(parts, entries, strict=True)
+    )
 
 
 @says(
