@@ -249,7 +249,11 @@ def _of_component(robot: Robot, entry: Node) -> Dimension | None:
 
 
 def measured_along(robot: Robot, form: Expr) -> Dimension | None:
-    """What a linear form of the coordinates is measured in, where those that stand in it alone agree."""
-    slopes = ((q, robot.ring.diff(form, k)) for k, q in enumerate(robot.coordinates))
-    found = {q.dimension for q, slope in slopes if slope.is_number and not slope.is_zero}
-    return found.pop() if len(found) == 1 else None
+    """What a linear form of the coordinates is measured in: a length where a length stands in it alone.
+
+    In y - 0.2 φ the number beside the angle hides a length; in φ - 5 y that beside y one over a length.
+    """
+    slopes = [(q.dimension, robot.ring.diff(form, k)) for k, q in enumerate(robot.coordinates)]
+    alone = {kind for kind, slope in slopes if slope in (robot.ring.one, -robot.ring.one)}
+    found = alone or {kind for kind, slope in slopes if slope.is_number and not slope.is_zero}
+    return LENGTH if LENGTH in found else NONE if found else None

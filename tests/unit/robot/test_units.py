@@ -12,6 +12,7 @@ from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 from dynsolve.robot import units
+from dynsolve.robot.dimensions import measured_along
 from dynsolve.solution.numbers import given
 
 
@@ -73,3 +74,23 @@ def test_a_size_of_a_shape_is_a_length_also_where_the_mass_is_a_number() -> None
     box = "{mass: 2, link: 1, center: tip, shape: {box: {x: b, y: b, z: e}}}"
     found = given.of_parameters(read_problem(f"dh: [{{theta: q1*, a: l1}}]\nmasses: [{box}]\n").robot)
     assert {name: units.si(found[name]) for name in "be"} == {"b": "m", "e": "m"}
+
+
+@pytest.mark.parametrize(
+    ("form", "unit"),
+    [
+        ("y - 0.2*p", "m"),
+        ("y - p", "m"),
+        ("2*y - 3*p", "m"),
+        ("y - b*p", "m"),
+        ("p - 5*y", ""),
+        ("2*p", ""),
+        ("b*p", None),
+    ],
+)
+def test_a_length_that_stands_alone_makes_a_form_a_length(form: str, unit: str | None) -> None:
+    model = "model: {coordinates: {y: prismatic, p: revolute}, bodies: [{mass: m, at: [b, y, 0], turn: p}]}\n"
+    robot = read_problem(f"{model}springs: [{{stiffness: 400, of: {form}}}]\n").robot
+    (spring,) = robot.actions.acts
+    found = measured_along(robot, spring.along[0])
+    assert (found and units.si(found)) == unit
