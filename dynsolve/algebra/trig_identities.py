@@ -132,7 +132,7 @@ class _Independent:
         self.angles = [tuple(angles_in(tree)) for tree in self.trees]
         places = {pair.angle: (pair.cosine, pair.sine) for pair in ring.pairs}
         size = len(ring.generators)
-        for angle in dict.fromkeys(angle for each in self.angles for angle in each if angle.terms):
+        for angle in dict.fromkeys(angle for each in self.angles for angle in each):
             if angle not in places and -angle not in places:
                 places[angle] = (size, size + 1)
                 size += 2
@@ -168,8 +168,6 @@ class _Independent:
 
     def _of_angle(self, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         """(cos, sin) of an angle."""
-        if not angle.terms:
-            return self._own(self.ring.cos(angle)), self._own(self.ring.sin(angle))
         if angle in self.places:
             cosine, sine = (self.ctx.gen(place) for place in self.places[angle])
             return cosine, sine
@@ -230,7 +228,7 @@ class _Independent:
         """The candidates of which none can be left out."""
         before, after = (self._value(tree, {}) for tree in self.trees)
         difference = self._normal(before - after)
-        angles = dict.fromkeys(angle for each in self.angles for angle in each if angle.terms)
+        angles = dict.fromkeys(angle for each in self.angles for angle in each)
         candidates: list[Angle | Addition] = [*angles, *self._candidates(additions)]
         columns = self._columns(difference, candidates)
         if len(columns) > MOST_COLUMNS or not _is_spanned(difference, [poly for _, poly in columns]):
