@@ -166,14 +166,14 @@ def is_short(robot: Robot, values: Derivation) -> bool:
 
 
 def style_of(robot: Robot) -> Style:
-    """The style of a robot: s_1 for sin θ_1 unless something else is called like one of these."""
+    """The style of a robot: s_1 for sin θ_1 unless something else is called like one, as a length c_2."""
     subscripts = {
         q.name: ",".join(split(q.name)[1]) for q in robot.coordinates if q.type is JointType.REVOLUTE
     }
     counts = Counter(subscripts.values())
     taken = names_taken(robot)
     shorthand = {name: s for name, s in subscripts.items() if s and counts[s] == 1}
-    if any({f"s{s}", f"c{s}"} & taken for s in shorthand.values()):
+    if any(name[:1] in ("s", "c") and name[1:].replace(",", "").isdecimal() for name in taken):
         shorthand = {}  # no cos(q_1) beside c_3
     return Style(shorthand=shorthand, star=True, decimal=robot.has_decimals)
 

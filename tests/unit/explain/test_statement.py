@@ -10,8 +10,10 @@ import dynsolve
 from dynsolve.document import Block, Formula, Text
 from dynsolve.explain.given import statement, to_be_found
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.render.files import Format
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.dynamics import Dynamics
+from dynsolve.solution.reports import report
 from tests.support import solved
 
 CASES = [
@@ -363,3 +365,10 @@ masses: [{mass: m, link: 1, center: {near: [c, 0, 0]}, inertia: {zz: J}, about: 
 def test_without_masses_nothing_of_the_dynamics_is_to_be_found() -> None:
     *_, last = stated(solved("base: Rx(90deg)\ndh: [{theta: q1*, a: l1}]\n"))
     assert last == "To be found: 𝐇₁^w and the Jacobian 𝐉."
+
+
+def test_no_cosine_is_written_as_a_length_is() -> None:
+    """A length c₂ beside cos t₁: c₁ would be read as another length."""
+    text = "dh: [{theta: t1*, a: c2}]\nmasses: [{mass: m, link: 1}]\nfind: [tau]\n"
+    told = report(dynsolve.solve(text), Format.TEXT).decode()
+    assert "cos(t₁)" in told and "c₁" not in told
