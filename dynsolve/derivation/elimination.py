@@ -236,8 +236,10 @@ class ParameterSigns(Struct, frozen=True):
         for sign, bound in product((1, -1), self.assumed):
             if is_more(factor * sign, bound):
                 return sign
-        known = (*self.assumed, *self._positive(factor))
-        return next((sign for sign in (1, -1) if follows(Bound(factor * sign), known)), 0)
+        positive = tuple(self._positive(factor))
+        known = (*self.assumed, *positive)
+        multiples = (factor, *(factor * bound.value for bound in positive))  # n (a - b) of n a > b (m + n)
+        return next((sign for one in multiples for sign in (1, -1) if follows(Bound(one * sign), known)), 0)
 
     def _positive(self, factor: Expr) -> Iterator[Bound]:
         """That the parameters are positive which stand in a factor, or in what is assumed."""

@@ -910,7 +910,7 @@ def _falls_where(m: Mechanism, s: Sentence) -> bool:
 
 @says(
     "Where {&}, {}, too; but with {} the coordinates do not tell there how the bodies move: "
-    "it need not be an equilibrium[, and so it is of special parameters]."
+    "it need not be an equilibrium."
 )
 def _no_coordinates(m: Mechanism, s: Sentence) -> bool:
     where = m.where(tree.Row(s.formulas[:-2]))
@@ -1167,6 +1167,7 @@ Along what the constraints leave free, the columns of {} with {}, the energy is 
 Where that is positive definite, the equilibrium is stable; where the energy falls in some direction, it is
   not.
 How stable <they|the others> are is not told here.
+The same is so for special parameters.
 Along the axis of a joint the force, where it slides, or the moment, where it turns, is what drives it.
 Section # has ....
 Where nothing moves: not derived.

@@ -253,7 +253,7 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
     for number, sets in enumerate(shown.excluded):
         place = f" in case {number + 1}" if len(shown.excluded) > 1 else ""
         for one, conditions in zip(sets, found.excluded[number], strict=True):
-            zero = listed([*known, *(equation(value, Number(0)) for value in one)])
+            zero = listed([*known, *shown.relations(conditions, one)])
             others = [str(k + 1) for k in held_elsewhere(found, number, conditions)]
             but = f" but in case{'s' * (len(others) > 1)} {and_joined(others)}" if others else ""
             yield say(f"Where{place} {{where}}, {_NO_MULTIPLIERS}{but}{general}.", where=as_row(zero))
@@ -264,10 +264,10 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
 def _singular(shown: EquilibriaForms, found: Equilibria, forces: Node) -> Iterator[Prose]:
     """Where D has no inverse, so that no force has to be 0 for the bodies to stay."""
     for case in found.singular:
-        zero = listed([equation(shown.condition(one), Number(0)) for one in case])
+        zero = listed(shown.relations(case, tuple(map(shown.condition, case))))
         text = "Where {zero}, {balance}, too; but with $det 𝐃 = 0$ the coordinates do not tell there how the "
-        more = ", and so it is of special parameters" * bool(found.special)
-        text += f"bodies move: it need not be an equilibrium{more}."
+        more = " The same is so for special parameters." * bool(found.special)
+        text += f"bodies move: it need not be an equilibrium.{more}"
         yield say(text, zero=zero, balance=equation(forces, _ZERO))
 
 

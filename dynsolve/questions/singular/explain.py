@@ -141,12 +141,14 @@ def _alternatives(forms: SingularForms, found: SingularSet, J: Node) -> Step:
             else "no factor of the minor becomes 0"
         )
         none = f", as {never}"
+    why = say("The rank of ${J}$ is {rank} in every configuration{none}.", J=J, rank=found.rank, none=none)
     step = Step(
         id="singular",
         title="No singular configuration",
-        why=say("The rank of ${J}$ is {rank} in every configuration{none}.", J=J, rank=found.rank, none=none),
+        why=why,
         detail=Detail.BRIEF,
         notes=special,
+        outcome=tuple(part for sentence in (why, *special) for part in (*sentence, " "))[:-1],
         hint=("A product is 0 where one of its factors is. Constant lengths are not 0.",),
         hint_title=_TITLE,
     )
