@@ -93,7 +93,7 @@ class Collector:
         self._products: dict[tuple[Rational, Monomial, tuple[Node, ...]], Node] = {}
         self._decomposed: dict[Node, tuple[Rational, Monomial]] = {}
         self._places: dict[Monomial, tuple[object, ...]] = {}
-        self._spelled = dict(primitive(self._terms(one)) for one in spelled)
+        self._spelled = dict(primitive(self.terms_of(one)) for one in spelled)
 
     def cost(self, node: Node) -> int:
         """The operations of a tree, counted once a tree."""
@@ -354,7 +354,7 @@ class Collector:
                 return factor**p, tuple((atom, e * p) for atom, e in mono)
         return 1, ((self.atoms.number(node), 1),)
 
-    def _terms(self, node: Node) -> Polynomial:
+    def terms_of(self, node: Node) -> Polynomial:
         """A sum as a polynomial."""
         return {mono: f for f, mono in map(self.decompose, summands(node))}
 
@@ -512,7 +512,7 @@ class Collector:
         if self.atoms.ranks[y][0] is Rank.COORDINATE is not self.atoms.ranks[x][0] and ratio < 0:
             x, y, ratio = y, x, exact(1, ratio)
         node = self._sum_node(x, y, ratio)
-        terms = self._terms(node)
+        terms = self.terms_of(node)
         key, scale = primitive(terms)
         size = exact(scale, self._spelled[key]) if key in self._spelled else self._typed_in(terms) or 1
         if size != 1:  # θ - 20z is -20(z - 0.05 θ), where that or 0.05 was typed

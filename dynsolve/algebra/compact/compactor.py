@@ -12,8 +12,9 @@ from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
+from itertools import accumulate
 
-from dynsolve.algebra.compact.atoms import RingAtoms
+from dynsolve.algebra.compact.atoms import Rank, RingAtoms
 from dynsolve.algebra.compact.collect import Collector
 from dynsolve.algebra.compact.proof import Proof, plain_form
 from dynsolve.algebra.compact.spelling import in_one_spelling
@@ -26,7 +27,9 @@ from dynsolve.algebra.compact.terms import (
     Polynomial,
     Rational,
     Terms,
+    divide,
     exact,
+    multiplied,
     multiply,
     primitive,
     split_at,
@@ -52,6 +55,9 @@ SMALLEST_SQUARE = 3
 
 MOST_SIZES = 24
 """So many numbers before a square are tried: in a file of many numbers none is seen to be meant."""
+
+HIGHEST_POWER = 8
+"""Up to this power sums that were typed are found again."""
 
 LARGE = 60
 """From this number of terms on one way of collecting is tried and not two."""
@@ -97,6 +103,7 @@ class Compactor:
         self._proof = Proof(ring)
         rates = {symbol for one in spelled for symbol in walk(one) if getattr(symbol, "dots", 0)}
         self._spelled = [one for one in spelled if rates.isdisjoint(walk(one))]
+        self._given = list(self._moving_sums())
         self._angles_outside = angles_outside
         self._large = large
         # The entries of D and C come again in the steps and in τ; a 7R arm would take a sixth longer without.
@@ -123,7 +130,16 @@ class Compactor:
         return found
 
     def _collected(self, text: str) -> Node:
-        return in_one_spelling(self._by_rates(self._atoms.terms(text)), self._spelled)
+        terms = self._atoms.terms(text)
+        found = []
+        for drawn, its in self._given:
+            terms, beside = self._with_drawn(terms, its, drawn[1])
+            if beside:
+                number, mono = self.collector.decompose(self._coefficient(beside))
+                factors = [(self._atoms.table.nodes[atom], e) for atom, e in mono]
+                found.append(times(number, [*factors, drawn], decimal=self.collector.decimal))
+        rest = [self._by_rates(terms)] if terms else []
+        return in_one_spelling(total([*rest, *found]), self._spelled)
 
     def matrix(self, matrix: Matrix) -> tree.Matrix:
         """The compact trees of a matrix's entries."""
@@ -136,6 +152,37 @@ class Compactor:
         if found is None:
             found = self._made[key] = make(terms)
         return found
+
+    # -- deflections -------------------------------------------------------------------------------
+
+    def _moving_sums(self) -> Iterator[tuple[tuple[Node, int], Polynomial]]:
+        """The powers of spelled sums in which a coordinate stands, the highest first, each with its terms."""
+        for one in self._spelled:
+            poly = self.collector.terms_of(one)
+            ranks = {self._atoms.table.ranks[atom][0] for mono in poly for atom, _ in mono}
+            if max(ranks) is Rank.COORDINATE and Rank.LEADING not in ranks:
+                powers = list(accumulate([poly] * HIGHEST_POWER, multiplied))
+                yield from reversed([((one, e), power) for e, power in enumerate(powers, start=1)])
+
+    def _with_drawn(self, terms: Terms, poly: Polynomial, power: int) -> tuple[Terms, Terms]:
+        """(the rest, what the power of a sum has beside it): k a, where k a (a x - b y) has all its terms."""
+        monomials = self._atoms.monomials
+        first = next(iter(poly))
+        rest, found = terms, Terms()
+        for e, f in terms.items() if len(poly) <= len(terms) else ():
+            mono = monomials.values[e[SYMBOLS]]
+            if e[MASSES] or e[RATES] or not dict(first).keys() <= dict(mono).keys():
+                continue
+            beside, size = divide(mono, first), exact(f, poly[first])
+            its = {
+                (*e[:SYMBOLS], monomials.number(multiply(beside, other)), 0): exact(size * own, 1)
+                for other, own in poly.items()
+            }
+            is_alone = power == 1 and abs(size) == 1 and not beside and not any(e[:MASSES])
+            if its.items() <= rest.items() and not is_alone:
+                rest = {parts: own for parts, own in rest.items() if parts not in its}
+                found[(*e[:SYMBOLS], monomials.number(beside), 0)] = size
+        return rest, found
 
     # -- velocities and accelerations --------------------------------------------------------------
 

@@ -349,6 +349,9 @@ def test_constant_forms_are_the_same_number(degrees: int, powers: dict[int, int]
         ("{energy: 0.15*k*(z - 0.35)^4}", "0.6 k (z - 0.35)³"),
         ("{energy: 0.15*k*(z - l)^2}", "0.3 k (z - l)"),
         ("{energy: k*z^2/2 + k3*z^4/4}", "k z + k₃ z³"),
+        ("{stiffness: 40, of: z, rest: 2*l - 0.3}", "40(z - 2l + 0.3)"),
+        ("{stiffness: k, of: a*z, rest: a - 0.1}", "a k (a z - a + 0.1)"),
+        ("{stiffness: 3, of: z, rest: 20deg}", "3(z - π/9)"),
     ],
 )
 def test_a_decimal_is_drawn_out_of_a_length_where_that_leaves_what_was_typed(spring: str, force: str) -> None:
