@@ -11,14 +11,13 @@ Of longer arms those are done that read off a result what its pages hide: a coor
 cyclic, on what D depends, entries of g that are zero.
 
 To add one, write a file with a function that gives its step, or None where it has nothing to
-say, and a record of it below.
+say, and name it below.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
-from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.explain.context import Context
@@ -29,36 +28,23 @@ from dynsolve.explain.sanity.equilibrium import equilibrium_step, unloaded_step
 from dynsolve.explain.sanity.poses import inertia_poses_step, point_masses_step
 from dynsolve.explain.step import Detail, Step
 
-
-class Check(Struct, frozen=True):
-    """A check by its step's id, the condition under which it speaks, and what makes the step."""
-
-    id: str
-    speaks_where: str
-    step: Callable[[Context], Step | None]
-
-
 CHECKS = (
-    Check("conserved", "the model follows from energies, or a coordinate is cyclic", conserved_step),
-    Check("definite", "D is seen to be definite for positive masses, or always singular", definite_step),
-    Check("decoupled", "a relation between parameters makes D diagonal", decoupled_step),
-    Check("inertia_poses", "a moment of inertia varies with one or two joint angles", inertia_poses_step),
-    Check("equilibrium", "gravity is balanced everywhere, or nowhere", equilibrium_step),
-    Check("point_masses", "a body has extent, and D is something without it", point_masses_step),
+    conserved_step,
+    definite_step,
+    decoupled_step,
+    inertia_poses_step,
+    equilibrium_step,
+    point_masses_step,
 )
-"""All checks of short arms, in the order in which they are shown."""
+"""What makes the steps of the checks of short arms, in the order in which they are shown."""
 
-CHECKS_OF_LONGER_ARMS = (
-    Check("conserved", "a coordinate stands neither in K nor in P", momenta_step),
-    Check("dependence", "each coordinate moves its own joint, in a chain", dependence_step),
-    Check("unloaded", "an axis is vertical, or a joint slides level", unloaded_step),
-)
+CHECKS_OF_LONGER_ARMS = (momenta_step, dependence_step, unloaded_step)
 """Those of longer arms."""
 
 
 def sanity_steps(context: Context) -> Iterator[Step]:
     """The checks that speak of a robot."""
     for check in CHECKS if context.is_short else CHECKS_OF_LONGER_ARMS:
-        step = check.step(context)
+        step = check(context)
         if step is not None:
             yield replace(step, detail=Detail.FULL)
