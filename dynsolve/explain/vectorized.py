@@ -16,7 +16,7 @@ from dynsolve.explain.placed_bodies import inertia_step
 from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import STATED, Detail, Part, Step
 from dynsolve.explain.terms import closing_step, driving_side, terms_step
-from dynsolve.explain.working.derivatives import coriolis_rows, coriolis_sums, gravity_rows
+from dynsolve.explain.working.derivatives import coriolis_sums, gravity_rows
 from dynsolve.explain.working.identities import Way
 from dynsolve.explain.writing import (
     and_joined,
@@ -219,13 +219,10 @@ def coriolis(context: Context, told: tuple[Prose, tuple[Node, ...]] | None = Non
         "Other matrices $𝐂$ give the same $𝐂 𝐪̇$, which is all that the equations of motion fix. This choice "
         "makes {skew} skew-symmetric."
     )
-    outcome = " There are none here." if is_none else " Multiplied out, it is the one read off above."
-    if not is_none and from_energies(context) and coriolis_rows(context):
-        outcome = ""  # they are compared row by row, in a step of its own
     why = say(
         "Row $k$, column $j$. $𝐂 𝐪̇$ holds the centrifugal terms (a rate squared){coriolis}.{outcome}",
         coriolis=" and the Coriolis terms (a product of two rates)" if n > 1 else "",
-        outcome=outcome,
+        outcome=" There are none here." if is_none else "",
     )
     why, result = told or (why, (formula("𝐂 = {C}", C=context.result("C")),))
     return Step(

@@ -173,3 +173,18 @@ masses: [{mass: m, link: 1, center: [-l/2, 0.1, 0], inertia: {xx: A, yy: B, zz: 
 find: [K]
 """
     assert "½ (B - 0.25 m l²) q̇²" in page(link, Detail.FULL)
+
+
+TRAILER = """
+model:
+  coordinates: {x: prismatic, y: prismatic, psi: revolute, delta: revolute}
+  bodies:
+    - {mass: M, at: [x, y, 0], turn: psi, inertia: {zz: J}}
+    - {mass: m, at: [x - e*cos(psi + delta), y - e*sin(psi + delta), 0]}
+"""
+
+
+def test_what_is_not_shown_is_not_read_off_above() -> None:
+    shown = page(TRAILER)
+    assert "Coriolis, centrifugal and gravity terms, read off" not in shown
+    assert "read off above" not in shown
