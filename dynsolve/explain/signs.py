@@ -133,8 +133,12 @@ def _indices(robot: Robot, base: str, count: int) -> Iterable[str]:
         case "u":
             return "123"
         case "theta" | "d" | "a" | "alpha" if count == 1:  # columns, where these have the number of a row
+            column = ("theta", "d", "a", "alpha").index(base)
             has_numbers = isinstance(letters.columns(robot, letters.COUNT)[0], Letter)
-            return (str(joint.index) for joint in robot.joints if has_numbers)
+            named = ((str(joint.index), joint.written[column]) for joint in robot.joints if has_numbers)
+            return (
+                row for row, entry in named if entry not in (Symbol(f"{base}{row}"), Symbol(f"{base}_{row}"))
+            )
     return map("".join, product(numbers, repeat=count))
 
 

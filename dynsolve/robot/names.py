@@ -18,6 +18,10 @@ FORCES: dict[str, tuple[str, ...]] = {"tau": ("u", "T", "upsilon"), "f": ("F", "
 """The letters of generalized forces -> those that stand in for them, the first that is free."""
 
 
+_SPARE = ("delta", "epsilon", "kappa", "xi", "chi", "zeta", "nu", "beta", "gamma")
+"""Letters for what has none left: with a mark behind it, a Greek letter would be a word."""
+
+
 def spelled(name: str) -> str:
     """The letters and digits of a name, by which it is known.
 
@@ -54,7 +58,7 @@ def marks() -> Iterator[str]:
 
 def other_letters(letter: str, others: Iterable[str] = ()) -> Iterator[str]:
     """A letter, those that may stand in for it, and no end of others made of it."""
-    return chain((letter,), others, (f"{letter}{mark}" for mark in islice(marks(), 1, None)))
+    return chain((letter,), others, _SPARE, (f"{letter}{mark}" for mark in islice(marks(), 1, None)))
 
 
 def free_letter(letters: Iterable[str], indices: Iterable[str], taken: AbstractSet[str]) -> str:

@@ -12,12 +12,13 @@ from msgspec.structs import replace
 from dynsolve.document import Block, Fold, Formula, Heading, Note, Table, Text
 from dynsolve.explain.context import style_of
 from dynsolve.explain.notation_list import COUNTING, notation, problem_names
-from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
+from dynsolve.explain.signs import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in, report_style
 from dynsolve.explain.step import Detail
 from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.markup import LatexPrinter, MathMLPrinter, TypstPrinter
 from dynsolve.notation.tree import Function, Letter, Node, Sum, Symbol
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
+from dynsolve.problem import read_problem
 from dynsolve.render import latex, markdown
 from tests.strangers.held import signs_in
 from tests.support import document, solved
@@ -399,3 +400,18 @@ def test_a_shorthand_is_told_once_where_there_are_no_others() -> None:
     (line,) = notation(robot, style, [cosines]).lines
     assert isinstance(line.words, Node)
     assert to_unicode(line.words, style) == "c₁ = cos q₁, c₁₂ = cos(q₁ + q₂)"
+
+
+@pytest.mark.parametrize(
+    ("rows", "letter"),
+    [
+        ("{theta: q1*, alpha: alpha1}, {theta: q2*, d: d, alpha: alpha_2}", "alpha"),
+        ("{theta: alpha1*, a: d}, {theta: q2*}", "gamma"),
+        ("{theta: q1*, alpha: alpha2}, {theta: q2*, d: d, alpha: alpha_1}", "gamma"),
+        ("{theta: alpha1*, a: d}, {theta: gamma2*}", "delta"),
+    ],
+)
+def test_a_column_has_a_letter_that_no_other_thing_has(rows: str, letter: str) -> None:
+    """What the file itself calls alpha_1 in row 1 of that column is no other thing."""
+    style = report_style(read_problem(f"dh: [{rows}]\n").robot)
+    assert style.letters.get(("alpha", "italic", 1), "alpha") == letter
