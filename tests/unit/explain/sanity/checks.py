@@ -20,8 +20,8 @@ def context(problem: str) -> Context:
 
 
 def check(problem: str, id: str) -> Step | None:
-    record = next(record for record in (*CHECKS, *CHECKS_OF_LONGER_ARMS) if record.id == id)
-    return record.step(context(problem))
+    step_of = next(made for made in (*CHECKS, *CHECKS_OF_LONGER_ARMS) if made.__name__ == f"{id}_step")
+    return step_of(context(problem))
 
 
 def words(prose: Prose) -> str:
