@@ -20,6 +20,7 @@ from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
+    Power,
     Product,
     Quotient,
     Sum,
@@ -130,9 +131,12 @@ def _deflections(robot: Robot) -> Iterator[Sum]:
 
 
 def _differences(cells: Iterable[Cell], robot: Robot) -> Iterator[Sum]:
-    """The differences of letters, numbers, multiples of letters in cells, as they are printed; and rates."""
-    for node in walk(*(cell.tree for cell in cells)):
-        if isinstance(node, Sum) and any(isinstance(term, Negative) for term in node.terms):
+    """The differences, and sums that are squared, of letters, numbers and products of them; and rates."""
+    nodes = list(walk(*(cell.tree for cell in cells)))
+    squared = {node.base for node in nodes if isinstance(node, Power)}
+    for node in nodes:
+        is_difference = isinstance(node, Sum) and any(isinstance(term, Negative) for term in node.terms)
+        if isinstance(node, Sum) and (is_difference or node in squared):
             terms = [_multiple(term, robot.has_decimals) for term in node.terms]
             printed = total([term for term in terms if term is not None])
             if None in terms or not isinstance(printed, Sum):
@@ -147,15 +151,17 @@ def _rate(node: Node) -> Node:
 
 
 def _multiple(term: Node, decimal: bool) -> Node | None:
-    """A letter, a number or a multiple of a letter as it is printed; None of anything else."""
+    """A letter, a number or a product of these as it is printed; None of anything else."""
     sign, inner = split_sign(term)
     match inner:
         case Number(p, q):
             return times(Fraction(sign * p, q), (), decimal=decimal)
         case Symbol(name):
             return times(sign, [(Symbol(name), 1)])
-        case Product((Number(p, q), Symbol(name))):
-            return times(Fraction(sign * p, q), [(Symbol(name), 1)], decimal=decimal)
+        case Product((Number(p, q), *letters)) if all(isinstance(letter, Symbol) for letter in letters):
+            return times(Fraction(sign * p, q), [(letter, 1) for letter in letters], decimal=decimal)
+        case Product(letters) if all(isinstance(letter, Symbol) for letter in letters):
+            return times(sign, [(letter, 1) for letter in letters])
         case Quotient(Symbol(name), Number(p, q)):
             return times(Fraction(sign * q, p), [(Symbol(name), 1)], decimal=decimal)
     return None
