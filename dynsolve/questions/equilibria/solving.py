@@ -281,7 +281,7 @@ class _Search:
             self.special.add(condition.multiplier(second.entries))
         nonzero = (*self.special.factors, *self.of_rank.factors)
         signs, found = self.signs.beside(nonzero=nonzero), []
-        is_periodic = all(rate.denominator == 1 for pair in robot.ring.pairs for _, rate in pair.angle.terms)
+        is_periodic = self._is_periodic()
         for one, bounds in exist.items():
             there = Transfer(ring, _ring_of_sums(ring, one))
             own, *cases = (tuple(Condition(there(c.expr)) for c in case) for case in (one, *exist))
@@ -293,6 +293,14 @@ class _Search:
                 told = list({point.told_at_pose(): point for point in reversed(told)}.values())[::-1]
             found.append(tuple(told))
         return tuple(found)
+
+    def _is_periodic(self) -> bool:
+        """Whether a whole turn of an angle is no other configuration, as it is where a spring is wound up."""
+        ring = self.robot.ring
+        turning = [ring.symbol_indices[name, 0] for name, kind in ring.coordinates if kind == "revolute"]
+        is_wound = any(row.poly.degrees()[place] > 0 for row in self.left for place in turning)
+        rates = (rate for pair in ring.pairs for _, rate in pair.angle.terms)
+        return not is_wound and all(rate.denominator == 1 for rate in rates)
 
     def _special_cases(self, factors: Iterable[Expr], settled: Settled | None) -> Iterator[SpecialCase]:
         """What is known where one of these factors is 0, and where one of the rank of A_c alone is."""
