@@ -283,7 +283,7 @@ class PlacedPose(Struct, frozen=True):
         """Whether a disk rolls on a line, on which it does not slide, whatever moves.
 
         That point is at rest; or another coordinate moves the line: a length that does not turn the body
-        and moves it along one direction, or what turns the body and its way alike.
+        and moves it along one direction in its plane, or what turns the body and its way alike.
         """
         robot, ring = self.robot, self.robot.ring
         spins, moves, k = _rolling(robot, body)
@@ -297,7 +297,8 @@ class PlacedPose(Struct, frozen=True):
                 continue
             carried = Matrix.column(ring, [ring.diff(entry, j) for entry in way.entries])
             is_straight = not any(map(ring.depends_on_coordinates, moved.entries))
-            if j == k or carried != cross(turned, way) or (turned.is_zero and not is_straight):
+            in_plane = ring.dot(moved.entries, spin.entries).is_zero
+            if j == k or carried != cross(turned, way) or (turned.is_zero and not (is_straight and in_plane)):
                 return False
         return True
 

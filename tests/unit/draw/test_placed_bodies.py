@@ -211,6 +211,7 @@ def said_of_disks(problem: Problem) -> set[str]:
         ("q: revolute, s: prismatic", "[l*sin(q), -l*cos(q), 0]", "q - s/R", False),  # a pulley
         ("x: prismatic, q: revolute", "[x + l*sin(q), -l*cos(q), 0]", "q - x/R", False),  # no floor there
         ("x: prismatic, q: revolute", "[x + l*sin(q), -l*cos(q), 0]", "-x/R", False),
+        ("x: prismatic, z: prismatic", "[x, R, z]", "-x/R", False),  # it slides along its axis
         ("x: prismatic", "[x, 0, x]", "[{by: x/R, about: [1, 0, 0]}]", False),  # a screw
     ],
 )
