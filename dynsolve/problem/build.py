@@ -141,6 +141,8 @@ def _differences(cells: Iterable[Cell], robot: Robot) -> Iterator[Sum]:
             printed = total([term for term in terms if term is not None])
             if None in terms or not isinstance(printed, Sum):
                 continue
+            if len({frozenset(names_in(term)) for term in printed.terms}) < len(printed.terms):  # d + c - d
+                continue
             yield printed
             if all(names_in(term) & {*robot.ring.names} for term in printed.terms):
                 yield Sum(tuple(mapped(term, _rate) for term in printed.terms))
