@@ -65,6 +65,13 @@ def test_what_is_used(before: str, after: str) -> None:
     assert is_enough(*trees, used)
 
 
+def test_an_angle_in_degrees_has_an_identity_of_its_own() -> None:
+    before, after = read("x*(sin(25deg)^2 + cos(25deg)^2)").tree, read("x").tree
+    (angle,) = angles_in(before)
+    fixed = build_ring([("a", "revolute")], [after], [Angle.of("a"), angle])
+    assert used_between(fixed, before, after) == Used((angle,))
+
+
 def test_trees_that_are_not_equal() -> None:
     assert used_between(ring(), read("sin(a)").tree, read("sin(b)").tree) is None
 
