@@ -116,7 +116,8 @@ class Compactor:
         """The compact tree of an expression; its plain form where that is not equal to its value."""
         if expr.is_zero:
             return ZERO
-        if expr.ring is not self.ring:
+        own = self.ring.generators
+        if expr.ring is not self.ring and expr.ring.generators[: len(own)] != own:
             raise ValueError("in another ring the same generators stand for something else")
         key = str(expr.poly)
         found = self._forms.get(key)
