@@ -402,8 +402,12 @@ def _quiet() -> None:
 
 def _is_ours(record: logging.LogRecord) -> bool:
     """Whether a log record is about something else than a lost connection of Dask."""
-    kind = record.exc_info[0] if record.exc_info else None
-    return kind is None or kind.__name__ not in _LOST
+    error = record.exc_info[1] if record.exc_info else None
+    while error is not None:  # a connection that times out is an OSError because of a closed one
+        if type(error).__name__ in _LOST:
+            return False
+        error = error.__cause__ or error.__context__
+    return True
 
 
 def run_bounded(payload: Data, seconds: float, memory: int, version: str) -> Data:

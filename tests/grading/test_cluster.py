@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import UsageError
-from dynsolve.grading.pool import PATIENCE, Bounds, ClusterPool, Data, _quiet, run_bounded
+from dynsolve.grading.pool import PATIENCE, Bounds, ClusterPool, Data, _is_ours, _quiet, run_bounded
 from tests.cli.running import dynsolve, environment
 from tests.grading.generate import course, problem_set
 from tests.support import ROOT
@@ -186,3 +186,17 @@ def test_an_address_where_nobody_answers_is_said(tmp_path: Path) -> None:
     ran = dynsolve("grade", *words, "--cluster", "tcp://127.0.0.1:9")
     assert ran.code == 2
     assert "no Dask scheduler answers" in ran.err
+
+
+@pytest.mark.parametrize(("kind", "is_told"), [("CommClosedError", False), ("ValueError", True)])
+def test_a_lost_connection_is_not_logged_whatever_it_ends_as(kind: str, is_told: bool) -> None:
+    """An attempt to connect again ends after a time as an OSError, whose cause is the closed connection."""
+    try:
+        try:
+            raise type(kind, (Exception,), {})
+        except Exception as lost:
+            raise OSError("timed out") from lost
+    except OSError as error:
+        told = (type(error), error, error.__traceback__)
+    record = logging.LogRecord("tornado.application", logging.ERROR, "", 0, "", (), told)
+    assert _is_ours(record) is is_told
