@@ -11,7 +11,6 @@ from fractions import Fraction
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation import text
 from dynsolve.notation.build import negated, split_sign, times, total
@@ -122,12 +121,16 @@ def _decimals(cell: Cell) -> frozenset[Fraction]:
 
 def _deflections(robot: Robot) -> Iterator[Sum]:
     """The differences in what stores energy: of what it acts along first, x₂ - x₁ - δ."""
+    found = [both for act in robot.actions.stored for both in act.differences]
+    if not found:
+        return
+    from dynsolve.algebra.compact.compactor import Compactor  # which lint needs for springs alone
+
     form = Compactor(robot.ring, decimal=robot.has_decimals).form
-    for act in robot.actions.stored:
-        for one, other in act.differences:
-            deflection = total([form(one), negated(form(other))])
-            if isinstance(deflection, Sum):
-                yield deflection
+    for one, other in found:
+        deflection = total([form(one), negated(form(other))])
+        if isinstance(deflection, Sum):
+            yield deflection
 
 
 def _differences(cells: Iterable[Cell], robot: Robot) -> Iterator[Sum]:

@@ -427,10 +427,10 @@ def _about_center(body: Body) -> Iterator[Expr]:
     if body.about_point is None or body.inertia is None or body.axes.kind is not AxesKind.LINK:
         return
     offset = (body.axes.rotation.T @ (body.center - body.about_point)).entries
+    square = sum((one * one for one in offset), start=body.mass.ring.zero)
     for i, along in enumerate(offset):
         if not body.inertia[i, i].is_zero:
-            others = sum((one * one for one in offset if one is not along), start=body.mass.ring.zero)
-            yield body.inertia[i, i] - body.mass * others
+            yield body.inertia[i, i] - body.mass * (square - along * along)
 
 
 def _bodies(reading: Reading) -> Iterator[tuple[Body, Record]]:
