@@ -136,7 +136,7 @@ def _polynomial(value: Expr) -> Polynomial:
 
 
 def _degree(value: Expr) -> int:
-    return max((sum(map(int, e)) for e in value.poly.monoms()), default=0)
+    return int(value.poly.total_degree())
 
 
 def _products(target: Expr, assumed: Sequence[Bound]) -> Iterator[tuple[Polynomial, bool]]:
@@ -147,17 +147,17 @@ def _products(target: Expr, assumed: Sequence[Bound]) -> Iterator[tuple[Polynomi
     used = {i for bound in assumed for i, d in enumerate(bound.value.poly.degrees()) if d > 0}
     squares = [ring.generator(i) ** 2 for i, d in enumerate(degrees) if d > 0 or i in used]
     given = (bound for bound in assumed if not bound.value.is_number)
-    factors = list(dict.fromkeys([*given, *(Bound(square, False) for square in squares)]))
+    distinct = dict.fromkeys([*given, *(Bound(square, False) for square in squares)])
+    factors = [(factor, _degree(factor.value)) for factor in distinct]
     found: dict[Expr, bool] = {ring.one: True}
-    waiting = [(Bound(ring.one), 0)]
-    for product, first in waiting:
-        for k in range(first, len(factors)):
-            factor = factors[k]
-            if _degree(product.value) + _degree(factor.value) > most or len(found) >= MOST_PRODUCTS:
+    waiting = [(Bound(ring.one), 0, 0)]
+    for product, degree, first in waiting:
+        for k, (factor, more) in enumerate(factors[first:], first):
+            if degree + more > most or len(found) >= MOST_PRODUCTS:
                 continue
             made = Bound(product.value * factor.value, product.is_strict and factor.is_strict)
             if made.value not in found or (made.is_strict and not found[made.value]):
-                waiting.append((made, k))
+                waiting.append((made, _degree(made.value), k))
                 found[made.value] = made.is_strict
     return ((_polynomial(value), is_strict) for value, is_strict in found.items())
 
@@ -166,12 +166,31 @@ def _is_sum(
     target: Mapping[Exponents, fmpq], products: Sequence[tuple[Polynomial, bool]], is_strict: bool
 ) -> bool:
     """Whether the target is Σ λ_j p_j with λ_j ≥ 0; where it is to be strict, with a strict p_j in it."""
+    products = _usable(target, products)
     rows = sorted({e for p, _ in products for e in p} | target.keys())
     right = [target.get(e, _ZERO) for e in rows]
     columns = [[p.get(e, _ZERO) for e in rows] for p, _ in products]
     gain = [fmpq(int(strict)) for _, strict in products]
     best = _Simplex(columns, right).maximum(gain)
     return best is not None and (best > 0 or not is_strict)
+
+
+def _usable(
+    target: Mapping[Exponents, fmpq], products: Sequence[tuple[Polynomial, bool]]
+) -> Sequence[tuple[Polynomial, bool]]:
+    """The products that can stand in the sum: each of their terms is the target's, or others take it away.
+
+    >>> a, ab, b = {(1, 0): fmpq(1)}, {(1, 1): fmpq(-1), (0, 1): fmpq(1)}, {(0, 1): fmpq(1)}
+    >>> [p for p, _ in _usable(a, [(p, True) for p in (a, ab, b)])] == [a]
+    True
+    """
+    while True:
+        against = {(e, f < 0) for e, f in target.items()}
+        against |= {(e, f > 0) for p, _ in products for e, f in p.items()}
+        left = [one for one in products if all((e, f < 0) in against for e, f in one[0].items())]
+        if len(left) == len(products):
+            return left
+        products = left
 
 
 class _Simplex:
