@@ -8,9 +8,9 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from math import lcm, prod
 
 from msgspec.structs import replace
@@ -39,6 +39,7 @@ from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import Turn, parallel_groups, turned_otherwise
 from dynsolve.robot.model import Body, Convention, JointType, Robot
+from dynsolve.robot.typed_sums import printed_sums
 
 LONG = 300
 """From this number of terms on a value is put together from parts."""
@@ -83,8 +84,16 @@ class Forms:
     @cached_property
     def compactor(self) -> Compactor:
         """The compactor of this robot's ring."""
-        robot, of = self.robot, self.collecting
-        return Compactor(robot.ring, *of, decimal=self._decimal, typed=robot.decimals, spelled=robot.sums)
+        return self._compactor(typed=self.robot.decimals, spelled=self.spelled)
+
+    @cached_property
+    def spelled(self) -> tuple[tree.Sum, ...]:
+        """The sums that formulas are written with as the file has them."""
+        return tuple(printed_sums(self.robot, self._compactor().form))
+
+    @property
+    def _compactor(self) -> Callable[..., Compactor]:
+        return partial(Compactor, self.robot.ring, *self.collecting, decimal=self._decimal)
 
     @property
     def collecting(self) -> tuple[list[str], list[frozenset[str]]]:
@@ -98,7 +107,7 @@ class Forms:
             found = self._make(name)
             quantity = quantities(self.robot).of_rule(name)
             if quantity is not None and quantity.family in (families.P_BODY, families.P):
-                found = _without_minus(found, self.robot.sums)
+                found = _without_minus(found, self.spelled)
             elif quantity is not None and quantity.family in _ENERGIES:
                 found = _with_squares_first(_without_minus(number_in_front(found)), self.robot.ring.names)
             self._made[name] = found
@@ -106,7 +115,9 @@ class Forms:
 
     def in_ring(self, ring: Ring) -> Forms:
         """The same of values of another ring, such as that of a matrix that is to be judged."""
-        return Forms(replace(self.robot, ring=ring), self.values, decimal=self._decimal)
+        other = Forms(replace(self.robot, ring=ring), self.values, decimal=self._decimal)
+        other.spelled = self.spelled
+        return other
 
     def of(self, value: Expr | RationalExpr | Matrix | FractionMatrix) -> Node:
         """The compact tree of any value of this robot's ring."""

@@ -6,28 +6,15 @@ which axes.  What is wrong is reported at its place; nothing is built of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation import text
-from dynsolve.notation.build import negated, split_sign, times, total
 from dynsolve.notation.characters import split
-from dynsolve.notation.tree import (
-    Negative,
-    Node,
-    Number,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-    Symbol,
-    mapped,
-    names_in,
-    walk,
-)
+from dynsolve.notation.tree import Number, walk
 from dynsolve.problem.bodies import ParsedShape
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.decoder import Record
@@ -42,6 +29,7 @@ from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.questions import reference
 from dynsolve.robot.shapes import AXES, KINDS, Density, Shape
+from dynsolve.robot.typed_sums import typed_sums
 
 
 def build_robot(
@@ -95,12 +83,12 @@ def build_robot(
     )
     decimals = frozenset[Fraction]().union(*map(_decimals, parsed.cells))
     has_decimals = any(_has_decimals(cell, robot) for cell in parsed.cells)
-    robot = replace(robot, has_decimals=has_decimals, decimals=decimals)
+    sums = tuple(typed_sums(cell.tree for cell in parsed.cells))
+    robot = replace(robot, has_decimals=has_decimals, decimals=decimals, typed_sums=sums)
     if parsed.acting is not None:
         from dynsolve.problem.acting import actions
 
         robot = replace(robot, actions=actions(values, parsed.acting))
-    robot = replace(robot, sums=(*_deflections(robot), *_differences(parsed.cells, robot)))
     robot = with_questions(values, robot, parsed.questions, points, asked, parsed.normals is not None)
     robot = _with_candidates(values, parsed, robot)
     return None if faults.errors else robot
@@ -117,59 +105,6 @@ def _decimals(cell: Cell) -> frozenset[Fraction]:
     """The decimals of a cell that are not whole."""
     numbers = (node for node in walk(cell.tree) if isinstance(node, Number))
     return frozenset(Fraction(node.p, node.q) for node in numbers if node.q != 1)
-
-
-def _deflections(robot: Robot) -> Iterator[Sum]:
-    """The differences in what stores energy: of what it acts along first, x₂ - x₁ - δ."""
-    found = [both for act in robot.actions.stored for both in act.differences]
-    if not found:
-        return
-    from dynsolve.algebra.compact.compactor import Compactor  # which lint needs for springs alone
-
-    form = Compactor(robot.ring, decimal=robot.has_decimals).form
-    for one, other in found:
-        deflection = total([form(one), negated(form(other))])
-        if isinstance(deflection, Sum):
-            yield deflection
-
-
-def _differences(cells: Iterable[Cell], robot: Robot) -> Iterator[Sum]:
-    """The differences, and sums that are squared, of letters, numbers and products of them; and rates."""
-    nodes = list(walk(*(cell.tree for cell in cells)))
-    squared = {node.base for node in nodes if isinstance(node, Power)}
-    for node in nodes:
-        is_difference = isinstance(node, Sum) and any(isinstance(term, Negative) for term in node.terms)
-        if isinstance(node, Sum) and (is_difference or node in squared):
-            terms = [_multiple(term, robot.has_decimals) for term in node.terms]
-            printed = total([term for term in terms if term is not None])
-            if None in terms or not isinstance(printed, Sum):
-                continue
-            if len({frozenset(names_in(term)) for term in printed.terms}) < len(printed.terms):  # d + c - d
-                continue
-            yield printed
-            if all(names_in(term) & {*robot.ring.names} for term in printed.terms):
-                yield Sum(tuple(mapped(term, _rate) for term in printed.terms))
-
-
-def _rate(node: Node) -> Node:
-    return Symbol(node.name, 1) if isinstance(node, Symbol) else node
-
-
-def _multiple(term: Node, decimal: bool) -> Node | None:
-    """A letter, a number or a product of these as it is printed; None of anything else."""
-    sign, inner = split_sign(term)
-    match inner:
-        case Number(p, q):
-            return times(Fraction(sign * p, q), (), decimal=decimal)
-        case Symbol(name):
-            return times(sign, [(Symbol(name), 1)])
-        case Product((Number(p, q), *letters)) if all(isinstance(letter, Symbol) for letter in letters):
-            return times(Fraction(sign * p, q), [(letter, 1) for letter in letters], decimal=decimal)
-        case Product(letters) if all(isinstance(letter, Symbol) for letter in letters):
-            return times(sign, [(letter, 1) for letter in letters])
-        case Quotient(Symbol(name), Number(p, q)):
-            return times(Fraction(sign * q, p), [(Symbol(name), 1)], decimal=decimal)
-    return None
 
 
 def _check_alike(faults: Faults, parsed: ParsedFile) -> None:

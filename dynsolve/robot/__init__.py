@@ -6,7 +6,8 @@ that.  `questions`: what an exercise asks around this model and of its equations
 motion keeps and the matrices that are to be judged.  `shapes`: uniform bodies and their inertia.
 `geometry`: rotations about axes, where the ends of a link are, and the sums of joint angles in which
 formulas about parallel axes are short.  `dimensions`: what every symbol is measured in, by its role;
-`units`: how dimensions and units are written.  `names`: the names that are given beside those of a
+`units`: how dimensions and units are written.  `typed_sums`: the sums of a file that its formulas are
+written with.  `names`: the names that are given beside those of a
 problem.  `drawing`: joint axes as they are drawn, and the table that
 the textbook's procedure makes of them.
 

@@ -367,7 +367,7 @@ class Robot(Struct, frozen=True):
     what the exercise asks around this model, `actions` what acts beside gravity.  Without joints the
     bodies are given by their positions, or `given` stands in their place.  `has_decimals` says that numbers
     were written as 0.3, and not as 3/10; where masses are letters, a half of a letter is none: 0.5 l.
-    `decimals` are the numbers with decimals as they were written, `sums` those that are factors as they are.
+    `decimals` are the numbers with decimals as they were written, `typed_sums` the sums.
     """
 
     ring: Ring
@@ -386,7 +386,7 @@ class Robot(Struct, frozen=True):
     base_turns: AxisTurns = ()
     has_decimals: bool = False
     decimals: frozenset[Fraction] = frozenset()
-    sums: tuple[Sum, ...] = ()
+    typed_sums: tuple[Sum, ...] = ()
 
     @property
     def has_table(self) -> bool:

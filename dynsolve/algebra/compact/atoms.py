@@ -134,7 +134,9 @@ class RingAtoms:
         self._order = {name: i for i, name in enumerate(leading)}
         self._symbols: dict[int, tuple[int, int]] = {}
         self._number_symbols()
-        self._places = dict(zip(ring.ctx.names(), self._of_generators(), strict=False))
+        of_generators = list(self._of_generators())
+        self.parts = [part for part, _ in of_generators]
+        self._places = dict(zip(ring.ctx.names(), of_generators, strict=False))
         self._factors: dict[str, tuple[int, _Products]] = {}
         self._trig: dict[tuple[int, int], tuple[int, Monomial]] = {}
         self._functions: dict[int, tuple[str, Angle]] = {}

@@ -13,8 +13,9 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
 from itertools import accumulate
+from operator import mul
 
-from dynsolve.algebra.compact.atoms import Rank, RingAtoms
+from dynsolve.algebra.compact.atoms import RingAtoms
 from dynsolve.algebra.compact.collect import Collector
 from dynsolve.algebra.compact.proof import Proof, plain_form
 from dynsolve.algebra.compact.spelling import in_one_spelling
@@ -27,9 +28,7 @@ from dynsolve.algebra.compact.terms import (
     Polynomial,
     Rational,
     Terms,
-    divide,
     exact,
-    multiplied,
     multiply,
     primitive,
     split_at,
@@ -39,10 +38,11 @@ from dynsolve.algebra.compact.terms import (
 from dynsolve.algebra.compact.trig_forms import angle_groups
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import attempted, warn_left_out
 from dynsolve.notation import tree
 from dynsolve.notation.build import times, total
-from dynsolve.notation.tree import ZERO, Node, walk
+from dynsolve.notation.tree import ZERO, Node, names_in, walk
 
 MUCH_CHEAPER = 0.75
 """Energies, momenta, torques stay collected by velocities unless another order costs less than this part."""
@@ -103,7 +103,9 @@ class Compactor:
         self._proof = Proof(ring)
         rates = {symbol for one in spelled for symbol in walk(one) if getattr(symbol, "dots", 0)}
         self._spelled = [one for one in spelled if rates.isdisjoint(walk(one))]
-        self._given = list(self._moving_sums())
+        self._apart = [i for i, part in enumerate(self._atoms.parts) if part in (MASSES, RATES)]
+        self._moving = [g.index for g in ring.generators if g.kind in ("sin", "cos") or g.name in ring.names]
+        self._given = list(self._moving_sums(frozenset(leading)))
         self._angles_outside = angles_outside
         self._large = large
         # The entries of D and C come again in the steps and in τ; a 7R arm would take a sixth longer without.
@@ -123,24 +125,26 @@ class Compactor:
         found = self._forms.get(key)
         if found is None:
             plain = partial(plain_form, expr)
-            found = attempted(partial(self._collected, key), plain, "a compact form")
+            found = attempted(partial(self._collected, expr), plain, "a compact form")
             if not self._proof.holds(expr, found):
                 warn_left_out("a compact form", "it is not equal to its value")
                 found = plain()
             self._forms[key] = found
         return found
 
-    def _collected(self, text: str) -> Node:
-        terms = self._atoms.terms(text)
+    def _collected(self, expr: Expr) -> Node:
         found = []
-        for drawn, its in self._given:
-            terms, beside = self._with_drawn(terms, its, drawn[1])
-            if beside:
-                number, mono = self.collector.decompose(self._coefficient(beside))
+        for drawn, power in self._given:
+            expr, beside = self._drawn(expr, drawn, power)
+            if not beside.is_zero:
+                number, mono = self.collector.decompose(self._coefficient(self._terms(beside)))
                 factors = [(self._atoms.table.nodes[atom], e) for atom, e in mono]
                 found.append(times(number, [*factors, drawn], decimal=self.collector.decimal))
-        rest = [self._by_rates(terms)] if terms else []
+        rest = [] if expr.is_zero else [self._by_rates(self._terms(expr))]
         return in_one_spelling(total([*rest, *found]), self._spelled)
+
+    def _terms(self, expr: Expr) -> Terms:
+        return self._atoms.terms(str(expr.poly))
 
     def matrix(self, matrix: Matrix) -> tree.Matrix:
         """The compact trees of a matrix's entries."""
@@ -156,34 +160,32 @@ class Compactor:
 
     # -- deflections -------------------------------------------------------------------------------
 
-    def _moving_sums(self) -> Iterator[tuple[tuple[Node, int], Polynomial]]:
-        """The powers of spelled sums in which a coordinate stands, the highest first, each with its terms."""
+    def _moving_sums(self, leading: Collection[str]) -> Iterator[tuple[tuple[Node, int], Expr]]:
+        """The powers of spelled sums in which a coordinate stands, the highest first, each with its value."""
         for one in self._spelled:
-            poly = self.collector.terms_of(one)
-            ranks = {self._atoms.table.ranks[atom][0] for mono in poly for atom, _ in mono}
-            if max(ranks) is Rank.COORDINATE and Rank.LEADING not in ranks:
-                powers = list(accumulate([poly] * HIGHEST_POWER, multiplied))
+            names = names_in(one)
+            if not names.isdisjoint(self.ring.names) and names.isdisjoint(leading):
+                powers = list(accumulate([value_of(self.ring, one)] * HIGHEST_POWER, mul))
                 yield from reversed([((one, e), power) for e, power in enumerate(powers, start=1)])
 
-    def _with_drawn(self, terms: Terms, poly: Polynomial, power: int) -> tuple[Terms, Terms]:
+    def _drawn(self, expr: Expr, drawn: tuple[Node, int], power: Expr) -> tuple[Expr, Expr]:
         """(the rest, what the power of a sum has beside it): k a, where k a (a x - b y) has all its terms."""
-        monomials = self._atoms.monomials
-        first = next(iter(poly))
-        rest, found = terms, Terms()
-        for e, f in terms.items() if len(poly) <= len(terms) else ():
-            mono = monomials.values[e[SYMBOLS]]
-            if e[MASSES] or e[RATES] or not dict(first).keys() <= dict(mono).keys():
+        beside = self.ring.zero
+        if len(power) > len(expr):
+            return expr, beside
+        terms = power.poly.to_dict()
+        first = min(terms, key=lambda exponents: sum(exponents[i] for i in self._moving))
+        for exponents, f in expr.poly.to_dict().items():
+            quotient = [e - own for e, own in zip(exponents, first, strict=True)]
+            if min(quotient) < 0 or any(quotient[i] for i in self._apart):
                 continue
-            beside, size = divide(mono, first), exact(f, poly[first])
-            its = {
-                (*e[:SYMBOLS], monomials.number(multiply(beside, other)), 0): exact(size * own, 1)
-                for other, own in poly.items()
-            }
-            is_alone = power == 1 and abs(size) == 1 and not beside and not any(e[:MASSES])
-            if its.items() <= rest.items() and not is_alone:
-                rest = {parts: own for parts, own in rest.items() if parts not in its}
-                found[(*e[:SYMBOLS], monomials.number(beside), 0)] = size
-        return rest, found
+            size = Expr(self.ring, self.ring.ctx.from_dict({tuple(quotient): f / terms[first]}))
+            product = size * power
+            is_alone = drawn[1] == 1 and size.is_number and abs(size.number) == 1
+            if not is_alone and len(expr - product) == len(expr) - len(product):
+                expr -= product
+                beside += size
+        return expr, beside
 
     # -- velocities and accelerations --------------------------------------------------------------
 

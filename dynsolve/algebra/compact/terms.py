@@ -21,7 +21,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import product
 from math import gcd, isqrt, lcm
 from typing import Any, Generic, NamedTuple, TypeVar
 
@@ -121,14 +120,6 @@ def multiply(left: Monomial, right: Monomial) -> Monomial:
     for atom, exponent in right:
         exponents[atom] = exponents.get(atom, 0) + exponent
     return tuple(sorted((a, e) for a, e in exponents.items() if e))
-
-
-def multiplied(left: Polynomial, right: Polynomial) -> Polynomial:
-    """The product of two polynomials."""
-    result: Polynomial = {}
-    for (mono, f), (other, g) in product(left.items(), right.items()):
-        add_term(result, multiply(mono, other), f * g)
-    return result
 
 
 def divide(mono: Monomial, by: Monomial) -> Monomial:
