@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from itertools import combinations, product
 from math import cos, isqrt, prod, radians, sin
 from typing import Any
@@ -263,9 +263,15 @@ def trig_factors(expr: Expr) -> tuple[tuple[Expr, int], ...]:
     >>> sorted(map(str, trig_factors(s * (c + s))))[1]
     "(Expr(1*sin(1*(('q1', 1),))), 1)"
     """
+    return _trig_factors(expr, expr.ring)
+
+
+@lru_cache(maxsize=1024)  # of what is 0 in a case the factors are asked for again and again
+def _trig_factors(expr: Expr, ring: Ring) -> tuple[tuple[Expr, int], ...]:
+    """The ring is named, since values of two rings may be equal."""
     if len(expr) == 0 or leading(expr) == expr:
         return ()
-    halves = HalfAngles(expr.ring)
+    halves = HalfAngles(ring)
     if not halves.can_hold(expr):
         return ((expr, 1),)
     found: Counter[Expr] = Counter()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 from dynsolve.algebra.compact.compactor import Compactor
@@ -66,7 +67,15 @@ class Inequalities:
         """The compactor of a ring of the search: the values of the task lead its sums, then masses."""
         named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
         leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
-        return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=self.robot.has_decimals)
+        parallel = tuple(parallel_coordinates(self.robot))
+        return _compactor(ring, tuple(leading), parallel, self.robot.has_decimals)
+
+
+@lru_cache(maxsize=8)  # what is checked, explained and exported has the same forms
+def _compactor(
+    ring: Ring, leading: tuple[str, ...], parallel: tuple[frozenset[str], ...], decimal: bool
+) -> Compactor:
+    return Compactor(ring, leading, parallel, decimal=decimal)
 
 
 def _squared(value: Expr) -> list[Expr]:

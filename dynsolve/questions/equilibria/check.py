@@ -118,6 +118,7 @@ def zero_near(robot: Robot, zeros: Program, start: Mapping[str, float]) -> dict[
 def zero_along(names: Sequence[str], zeros: Program, start: Mapping[str, float]) -> dict[str, float] | None:
     """The same where only these names are changed."""
     at = dict(start)
+    names = [name for name in names if name in zeros.symbols]
     try:
         for _ in range(_NEWTON_STEPS):
             f = zeros.run(at)
