@@ -247,7 +247,7 @@ def potential_steps(context: Context) -> Iterator[Step]:
 
 
 def _potential(context: Context, body: Body, tells: bool) -> Step:
-    P, m, r = letters.of_body("P", body), context.mass(body), letters.rc(body)
+    P, m, r = letters.of_body("P", body), context.forms.mass(body), letters.rc(body)
     pull = formula("𝐠_0ᵀ {r}", r=r)
     step = Step(
         id=f"P{body.name}",
@@ -283,8 +283,8 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
     h, is_named = letters.height(letters.index_of(body.name)), "g" in context.robot.parameters
     g = context.show(size) if is_named or not size.is_number else Symbol("g")
     at: Expr = context.values[f"rc{body.name}"][i, 0]
-    named = [(m, context.show(body.mass), "kg"), *([(g, context.show(size), "m/s²")] if tells else [])]
-    given = [equation(letter, measured(value, unit)) for letter, value, unit in named if letter != value]
+    value = context.show(size)
+    given = [equation(g, measured(value, "m/s²"))] if tells and g != value else ()
     return replace(
         step,
         why=say(

@@ -116,7 +116,7 @@ def _worked_out(context: Context, body: Body, step: Step, turns: bool) -> Step:
         return _turned(context, body, step) if turns else step
     angular = tuple(_angular_lines(context, body)) if turns else ()
     angular_used = _angular_used(context, body) if turns else ()
-    shown = Product((context.mass(body), letters.transposed_product(context.show(J))))
+    shown = Product((context.forms.mass(body), letters.transposed_product(context.show(J))))
     step = replace(step, working=(equation(linear_name(context, body), factored(context, shown)),))
     products = of_columns(context, body)
     if products is None:
@@ -191,7 +191,7 @@ def _summed_entries(context: Context, parts: Sequence[str]) -> Iterator[Node]:
 
 def linear_name(context: Context, body: Body) -> Node:
     """m J_vᵀ J_v, in letters."""
-    return Product((context.mass(body), letters.transposed_product(letters.jv(body))))
+    return Product((context.forms.mass(body), letters.transposed_product(letters.jv(body))))
 
 
 def angular_name(body: Body) -> Node:

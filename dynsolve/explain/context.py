@@ -20,7 +20,7 @@ from dynsolve.notation.characters import split
 from dynsolve.notation.printing import Style, decimal_text
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Body, Convention, JointType, Robot
+from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.names import names_taken
 
 if TYPE_CHECKING:
@@ -110,19 +110,12 @@ class Context(Struct, frozen=True):
         """The tree of any exact value."""
         return self.forms.of(value)
 
-    def mass(self, body: Body) -> Node:
-        """The mass of a body in a formula: the problem's symbol, else m_i unless that is another thing."""
-        shown = self.show(body.mass)
-        if isinstance(shown, Symbol) or letters.is_taken(self.robot, "m", body):
-            return shown
-        return letters.of_body("m", body)
-
     @property
     def are_masses_counted(self) -> bool:
         """Whether the masses are called m_1, m_2, ..., as a sum over the bodies has them."""
         bodies = self.robot.bodies
         own = [(Symbol(f"m{body.name}"), letters.of_body("m", body)) for body in bodies]
-        named = all(self.mass(body) in names for body, names in zip(bodies, own, strict=True))
+        named = all(self.forms.mass(body) in names for body, names in zip(bodies, own, strict=True))
         return named and are_counted(bodies)
 
     @property

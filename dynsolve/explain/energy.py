@@ -249,7 +249,7 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
         title=f"Translational kinetic energy of {name_of(body)}",
         why=(why,),
         formula=formula(
-            "{Kv} = ½ {m} {square}", Kv=Kv, m=context.mass(body), square=letters.transposed_product(v)
+            "{Kv} = ½ {m} {square}", Kv=Kv, m=context.forms.mass(body), square=letters.transposed_product(v)
         ),
         source=spong("7.2"),
         working=() if afresh else working,

@@ -128,6 +128,10 @@ class Forms:
         """Products and quotients of this robot's ring."""
         return ProductForms(self.compactor, decimal=self._decimal)
 
+    def mass(self, body: Body) -> Node:
+        """The mass of a body in a formula."""
+        return letters.mass(self.robot, body, self.of(body.mass))
+
     def christoffel(self, i: int, j: int, k: int) -> Node:
         """c_ijk, from 0."""
         key = min(i, j), max(i, j), k

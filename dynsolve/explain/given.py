@@ -215,7 +215,7 @@ def _table(forms: Forms) -> Prose:
     if not count:
         return (what,)
     if count > MOST_BODIES:
-        return (f"{what}, and {_PROPERTIES} of {count} rigid bodies",)
+        return (f"{what}, and {_PROPERTIES} of {count} rigid bodies", *_masses(forms))
     return (f"{what} and {_COUNTS[count]}: ", *_bodies(forms))
 
 
@@ -228,7 +228,7 @@ def _drawn_bodies(forms: Forms, normals: Normals) -> Prose:
     """The bodies of a drawing, their mass centres in this pose; nothing where there are none."""
     count = len(forms.robot.bodies)
     if count > MOST_BODIES:
-        return (f"{opened(_PROPERTIES)} of {count} rigid bodies are given, too.",)
+        return (f"{opened(_PROPERTIES)} of {count} rigid bodies are given, too", *_masses(forms), ".")
     kinds = [(q.name, q.type.value) for q in forms.robot.coordinates]
     told = _bodies(forms, DrawnFrames.of(normals, kinds))
     return (f"{opened(_COUNTS[count])}: ", *told, ".") if told else ()
@@ -239,16 +239,15 @@ def _angles(robot: Robot) -> Prose:
     told: list[Prose] = []
     for joint in robot.joints:
         theta, _, _, alpha = letters.columns(robot, Number(joint.index))
-        for letter, angle, written in (
-            (theta, joint.theta, joint.written[0]),
-            (alpha, joint.alpha, joint.written[3]),
-        ):
+        first, *_, last = joint.written
+        for letter, angle, written in ((theta, joint.theta, first), (alpha, joint.alpha, last)):
             if angle.degrees % 90:
-                plain = mapped(
-                    written, lambda node: replace(node, star=False) if isinstance(node, Symbol) else node
-                )
-                told.append((letter, f" of row {joint.index} is ", plain))
+                told.append((letter, f" of row {joint.index} is ", mapped(written, _without_star)))
     return ("In the table ", *listed(told), ".") if told else ()
+
+
+def _without_star(node: Node) -> Node:
+    return replace(node, star=False) if isinstance(node, Symbol) else node
 
 
 def _joints(robot: Robot) -> str:
@@ -302,7 +301,7 @@ def _position(forms: Forms, body: Body) -> Prose:
     from dynsolve.explain.placed_bodies import turned as turning
 
     point = "a point " if body.is_point else ""
-    told: Prose = (f"{opened(name_of(body))}, {point}of mass ", measured(forms.of(body.mass), "kg"))
+    told: Prose = (f"{opened(name_of(body))}, {point}", *_mass(forms, body))
     told += (", is at ", flat(map(forms.of, body.center.entries)), ".")
     if body.inertia is None:
         return told
@@ -321,9 +320,8 @@ def _body(forms: Forms, body: Body, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
     """body 2 in link 2, a uniform slender rod of mass m₂ and length l₂ along 𝐱₂, its mass centre at 𝐨₁"""
     density, shape = body.density, body.shape
     center = ("mass centre ", *_place(forms, body, drawn))
-    what: Prose
     if body.is_point and density is None:
-        what = (" a point", *_mass(forms, body), " ", *center[1:])
+        what: Prose = (" a point ", *_mass(forms, body), " ", *center[1:])
     elif density is not None:
         assert density.shape is not None
         if density.begins:
@@ -332,7 +330,7 @@ def _body(forms: Forms, body: Body, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
     elif shape is not None and shape.formulas:
         what = (f" a uniform {SHAPES[shape.kind]}", *_sized(forms, body, shape), ", its ", *center)
     else:
-        what = (*_mass(forms, body), ", its ", *center)
+        what = (" ", *_mass(forms, body), ", its ", *center)
     axes = () if body.is_point and density is None else _own_axes(forms, body, bool(drawn.frames))
     return (f"{name_of(body)} in link {body.link},", *what, *axes)
 
@@ -358,14 +356,26 @@ def _mass(forms: Forms, body: Body) -> Prose:
         slices = KINDS[body.density.shape.kind].slices
         assert slices is not None
         place = say(" at the distance $x$ from its near end") if body.density.varies else ()
-        return (f" of mass per {slices.per} ", body.density.formula, *place)
-    return (" without mass",) if body.mass.is_zero else (" of mass ", measured(forms.of(body.mass), "kg"))
+        return (f"of mass per {slices.per} ", body.density.formula, *place)
+    return ("of mass ", _named_mass(forms, body))
+
+
+def _masses(forms: Forms) -> Prose:
+    """What is behind the letters of masses that are none, of many bodies."""
+    told = [mass for body in forms.robot.bodies if isinstance(mass := _named_mass(forms, body), Relation)]
+    return (", ", *listed(told)) if told else ()
+
+
+def _named_mass(forms: Forms, body: Body) -> Node:
+    """m; or m₁ = 2.5 kg, where that is what formulas call it."""
+    name, value = forms.mass(body), forms.of(body.mass)
+    return name if name == value else equation(name, measured(value, "kg"))
 
 
 def _sized(forms: Forms, body: Body, shape: Shape) -> Prose:
     """of mass m₁, radius r₁ and length l₁ along 𝐲₁; of a box: and sides b, b and c along 𝐱₁, 𝐲₁ and 𝐳₁"""
     sizes = {key: measured(forms.of(value), "m") for key, value in shape.dimensions}
-    mass = _mass(forms, body)
+    mass = (" ", *_mass(forms, body))
     if not set(sizes) <= set(DIMENSIONS):
         along = listed([_axis(forms, body, axis) for axis in sizes])
         return say(

@@ -294,7 +294,7 @@ def _parallel_axis(context: Context, body: Body) -> Step:
         return Entry(node, Words(axes[0] * 2)) if axes else node
 
     tensor = entering(letters.tensor(context.robot, body))
-    shift = Product((context.mass(body), entering(formula("𝐝ᵀ 𝐝 𝐄 - 𝐝 𝐝ᵀ"))))
+    shift = Product((context.forms.mass(body), entering(formula("𝐝ᵀ 𝐝 𝐄 - 𝐝 𝐝ᵀ"))))
     value: Node = context.form(f"I_body{b}")
     working: tuple[Node, ...] = (formula("𝐝 = {d}", d=factored(context, context.show(offset))),)
     if axes:

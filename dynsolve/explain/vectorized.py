@@ -158,7 +158,7 @@ def _inertia_direct(context: Context) -> Step:
         formula("(m_i 𝐉_v_iᵀ 𝐉_v_i + 𝐉_ω_iᵀ 𝓘_i 𝐉_ω_i)"),
         Symbol("i"),
         len(robot.bodies),
-        {formula("m_i"): context.mass(body) for body in robot.bodies[:1]},
+        {formula("m_i"): context.forms.mass(body) for body in robot.bodies[:1]},
     )
     same = context.values["D"] == context.values["D_direct"]
     names = and_joined([body.name for body in robot.bodies])

@@ -209,6 +209,12 @@ def is_taken(robot: Robot, base: str, body: Body) -> bool:
     return spelled(f"{base}{body.name}") in names_taken(robot)
 
 
+def mass(robot: Robot, body: Body, value: Node) -> Node:
+    """The mass of a body in a formula: the problem's symbol, else m_i unless that is another thing."""
+    is_value = isinstance(value, Symbol) or is_taken(robot, "m", body)
+    return value if is_value else of_body("m", body)
+
+
 def height(index: Node) -> Letter:
     """η_i, the height of a mass centre: h is a factor of C's entries, as in the textbook, or a length."""
     return Letter("eta", index)

@@ -194,7 +194,7 @@ class BodyShare(Struct, frozen=True, dict=True):
     def in_letters(self) -> tuple[Node, ...]:
         """m (J_v)_jᵀ (J_v)_k and (J_ω)_jᵀ 𝓘 (J_ω)_k in axes and levers."""
         (v, w), (other_v, other_w) = self.first.names, self.last.names
-        linear = Product((self.context.mass(self.body), Transpose(_bracketed(v)), _bracketed(other_v)))
+        linear = Product((self.context.forms.mass(self.body), Transpose(_bracketed(v)), _bracketed(other_v)))
         tensor = letters.base_tensor(letters.index_of(self.body.name))
         both_turn = self.first.turns and self.last.turns
         return (linear, Product((Transpose(w), tensor, other_w))) if both_turn else (linear,)
@@ -224,7 +224,7 @@ class BodyShare(Struct, frozen=True, dict=True):
         return Line(
             (f"Multiplied, for body {self.body.name}", *((", with ", *listed(used)) if used else ()), ":"),
             (
-                equation(moved, Product((self.context.mass(self.body), entries)), linear),
+                equation(moved, Product((self.context.forms.mass(self.body), entries)), linear),
                 equation(*turned, angular),
             ),
         )

@@ -94,7 +94,7 @@ def _begun_along(context: Context, body: Body, i: int) -> Iterator[Line]:
     J, value, written = letters.jv(body), context.values[f"Jv{body.name}"], context.matrix(f"Jv{body.name}")
     yield turning_line(context, i, J, value, written, "the products of the columns")
     turned = context.show(turn_of_frame(context, i)[0].T @ value)
-    mass, name = context.mass(body), Parenthesized(turned_name(context, i, J))
+    mass, name = context.forms.mass(body), Parenthesized(turned_name(context, i, J))
     products = ((mass, J), (mass, name), (context.show(body.mass), turned))
     members = dict.fromkeys(Product((m, letters.transposed_product(columns))) for m, columns in products)
     yield Line(("Their products:",), (equation(*(factored(context, member) for member in members)),))
@@ -200,7 +200,7 @@ def _lines(
         tree.Matrix(tuple(tuple(found[min(i, j), max(i, j)] for j in range(n)) for i in range(n)))
         for _, found in stages
     ]
-    whole = Product((context.mass(body), columns))
+    whole = Product((context.forms.mass(body), columns))
     if all(matrix_width(context, matrix) <= WIDEST for matrix in matrices):
         front = factors_of(_in_front(context, [body.mass, factor * factor]))
         for (by, _), matrix in zip(stages, matrices, strict=True):

@@ -473,7 +473,9 @@ def _force_why(context: Context, i: int) -> str:
 def _inertial(context: Context, body: Body) -> tuple[Node, Matrix]:
     """m (a_c - g_0) of a body."""
     H, acceleration = context.values[f"H{body.link}"], context.values[f"acl{body.name}"]
-    name = _inertial_force(Names.of(context.robot, body.link, body), context.mass(body), _is_heavy(context))
+    name = _inertial_force(
+        Names.of(context.robot, body.link, body), context.forms.mass(body), _is_heavy(context)
+    )
     return name, recursions.inertial_force(context.robot, body, H, acceleration)
 
 

@@ -362,6 +362,21 @@ masses: [{mass: m, link: 1, center: {near: [c, 0, 0]}, inertia: {zz: J}, about: 
     assert to_unicode(tensor) == "[[0, 0, 0], [0, 0, 0], [0, 0, J]]"
 
 
+def masses_given(masses: list[str]) -> str:
+    rows = "".join(f"  - {{theta: q{i + 1}*, a: l}}\n" for i in range(len(masses)))
+    bodies = "".join(
+        f"  - {{mass: {mass}, link: {i + 1}, center: tip, inertia: {{zz: J}}}}\n"
+        for i, mass in enumerate(masses)
+    )
+    return stated(solved(f"dh:\n{rows}masses:\n{bodies}"))[0]
+
+
+def test_a_mass_that_is_no_letter_has_one_in_formulas_which_is_told() -> None:
+    few, many = masses_given(["2*M", "0", "M"]), masses_given(["2", "0.5", "M", "M", "0"])
+    assert [mass for mass in ("m₁ = 2M", "m₂ = 0", "of mass M") if mass not in few] == []
+    assert "5 rigid bodies, m₁ = 2 kg, m₂ = 0.5 kg and m₅ = 0." in many
+
+
 def test_without_masses_nothing_of_the_dynamics_is_to_be_found() -> None:
     *_, last = stated(solved("base: Rx(90deg)\ndh: [{theta: q1*, a: l1}]\n"))
     assert last == "To be found: 𝐇₁^w and the Jacobian 𝐉."
