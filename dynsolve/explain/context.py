@@ -144,15 +144,16 @@ MOST_JOINTS = 3
 MOST_TERMS = 20
 """The terms in the last frame up to which more coordinates are like these: an arm with parallel axes."""
 
+MOST_TERMS_OF_D = 60
+"""The same of the inertia matrix of a model."""
+
 
 def is_short(robot: Robot, values: Derivation) -> bool:
-    """Whether an arm has few joints, or many of which the last frame has but few terms."""
+    """Whether there are few coordinates; or many, and but few terms in the last frame, or in D of a model."""
     if robot.n <= MOST_JOINTS:
         return True
-    if not robot.has_table:
-        return False
-    last = values[f"H{len(robot.joints)}"]
-    return sum(len(entry.poly) for entry in last.entries) <= MOST_TERMS
+    name, most = (f"H{len(robot.joints)}", MOST_TERMS) if robot.has_table else ("D", MOST_TERMS_OF_D)
+    return sum(len(entry.poly) for entry in values[name].entries) <= most
 
 
 # -- how a robot's formulas look: the shorthands s_1 and c_12, decimal numbers ---------------------

@@ -249,7 +249,7 @@ def summary_blocks(
     if model is not None and is_short:
         yield from _model(robot, model, by_id, detail, names)
     elif model is not None:
-        yield from _long_model(model, by_id, detail, sections)
+        yield from _long_model(robot, model, by_id, detail, sections)
     else:
         rows = tuple(step.result[0] for step in forces)
         if names and names.short.single and names.short.single.name in walk(*names.others) and forces:
@@ -372,15 +372,18 @@ class _Names(Struct):
 
 
 def _long_model(
-    model: Step, by_id: Mapping[str, Step], detail: Detail, sections: Mapping[Stage, int]
+    robot: Robot, model: Step, by_id: Mapping[str, Step], detail: Detail, sections: Mapping[Stage, int]
 ) -> Iterator[Block]:
     """Of a long model where D, C and g are; these themselves where no stage shows them."""
     if detail is Detail.RESULTS:
         assert model.formula is not None
         yield Formula(model.formula)
-        for name in ("D", "christoffel", "g"):
+        is_general = "forces" in by_id  # one formula for all rows
+        for name in ("D", "christoffel", "g", "forces") if is_general else ("D", "C", "g"):
             step = by_id[name]
             yield from (Formula(result, entries=step.entries) for result in step.result)
+        forces = [] if is_general else _forces(robot, by_id)
+        yield from _rows(robot, forces, [step.result[0] for step in forces]) if forces else ()
         return
     yield Text(model.why)
     assert model.formula is not None

@@ -197,6 +197,25 @@ def test_a_depth_is_as_long_as_it_is_meant_to_be(problem: str) -> None:
     assert all(length <= most for length, most in zip(lengths, LINES[problem], strict=True)), lengths
 
 
+SLIDERS = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {x: prismatic, y: prismatic, a: revolute, b: revolute}
+  bodies:
+    - {mass: M, at: [x, y, 0]}
+    - {mass: m, at: [x + l*sin(a)*cos(b), y + l*sin(a)*sin(b), BODY]}
+"""
+"""A model of four coordinates."""
+
+
+@pytest.mark.parametrize("height", ["-l*cos(a)", "h*x*cos(b) + r*y*sin(a + b) + r*cos(2*a)"])
+def test_the_results_of_four_coordinates_hold_the_forces(height: str) -> None:
+    page = page_of(SLIDERS.replace("BODY", height), Detail.RESULTS)
+    assert all(f"\n    {force} = " in page for force in ("f₁", "f₂", "τ₃", "τ₄"))
+    summary = page.partition("Summary")[2]
+    assert "    𝐂 = " in summary or "    C₁₃ = " in summary or "⎤ ⎡ẋ⎤" in summary
+
+
 def test_a_chain_of_matrices_under_others_stays_one_and_can_be_broken() -> None:
     """As wide as a line each: none gets a row of its own around it, which a page could not break at =."""
     long = Sum(tuple(Symbol(f"m{k}") for k in range(1, 9)))
