@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
 
@@ -34,6 +34,7 @@ from dynsolve.notation.tree import (
     ONE,
     Node,
     Number,
+    Relation,
     Symbol,
     equation,
     names_in,
@@ -106,6 +107,7 @@ _AT_REST = (
     "{loads}"
 )
 _COULOMB = "Coulomb friction is left out: wherever it holds, there is rest, too."
+_NOT_HELD = "All this is without Coulomb friction, which can hold what is not stable."
 _CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
 _DEPENDENT = formula("[𝐀_c; 𝐠ᵀ]")
 _NEVER_HELD = "Where all of them are 0, the rows of $𝐀_c$ are dependent and there is no $𝛌$."
@@ -128,7 +130,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
     where = _where(shown, found)
     combined = _combined(context, shown, found)
     lines = (Line(_combined_by(found, where, bool(constrained)), combined),) if combined else ()
-    notes = [*_of_cases(shown, found, where), *_besides(shown, found)]
+    notes = [*_of_cases(shown, found, where), *_besides(context, shown, found)]
     forces: Node = FORCES if steady else letters.G
     values = context.show(forces_of_motion(context)) if steady else context.form("g")
     balance = "Motors hold the others; what has none must be in balance: {passive}. "
@@ -233,7 +235,7 @@ def _of_cases(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterat
             yield say("These are the equilibria{where}.", where=where)
 
 
-def _besides(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
+def _besides(context: Context, shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
     """What is said of configurations and parameters that the cases leave out."""
     steady = bool(shown.robot.questions.model.steady)
     yield from _singular(shown, found, FORCES if steady else letters.G)
@@ -242,8 +244,39 @@ def _besides(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
     if found.may_be_others:
         yield ("For special values of the parameters there may be others.",)
     yield from _without_multipliers(shown, found)
-    if _has_coulomb(shown.robot) and not steady:
-        yield (_COULOMB,)
+    if slid := _held_by_friction(shown.robot):
+        yield _rest(context, shown, slid)
+
+
+def _held_by_friction(robot: Robot) -> dict[int, Expr]:
+    """The Coulomb friction of each coordinate, from 0, that no motor holds."""
+    ring, found = robot.ring, dict[int, Expr]()
+    for act in robot.actions.resisting:
+        for sign in act.functions(robot):
+            (name,) = (name for name in ring.names if Symbol(name, 1) == sign.argument)
+            k, (place,) = ring.names.index(name), ring.function(sign).used
+            slides = {place: ring.one.poly, ring.symbol_indices[name, 1]: ring.zero.poly}
+            if k in wanted_rows(robot):
+                found[k] = found.get(k, ring.zero) + ring.put(act.force(robot)[k, 0], slides)
+    return found
+
+
+def _rest(context: Context, shown: EquilibriaForms, slid: Mapping[int, Expr]) -> Prose:
+    """Where Coulomb friction holds: -μ ≤ m g l sin(q) ≤ μ."""
+    robot, form = shown.robot, shown.compactor(shown.robot.ring).form
+    if robot.questions.constraints:
+        return (_COULOMB,)
+    forces = forces_of_motion(context) if robot.questions.model.steady else context.values["g"]
+    balanced = {k: forces[k, 0] for k in wanted_rows(robot) if not forces[k, 0].is_zero}
+    rest = [
+        Relation((form(-slid[k]), form(force), form(slid[k])), ("≤", "≤"))
+        if k in slid
+        else equation(form(force), Number(0))
+        for k, force in balanced.items()
+    ]
+    if not rest or not is_small(*rest):
+        return (_COULOMB,)
+    return say("With Coulomb friction the equilibria are where {rest}.", rest=as_row(listed(rest)))
 
 
 def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
@@ -318,10 +351,6 @@ def _at_rest(robot: Robot, left: Node) -> Prose:
         left=left,
         loads="Without the forces from outside. " * bool(robot.questions.loads),
     )
-
-
-def _has_coulomb(robot: Robot) -> bool:
-    return any(act.functions(robot) for act in robot.actions.resisting)
 
 
 def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
@@ -420,6 +449,8 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
         curvature = context.show(linearization.curvature(robot, forces))
         working = (*working, *([equation(second, curvature)] if is_small(curvature) else []))
     sentences = [*(_verdict(context, shown, *one) for one in told), *([more] if more else [])]
+    if _held_by_friction(robot) and any(point.stability is not Stability.STABLE for point, _ in told):
+        sentences.append((_NOT_HELD,))
     return Step(
         id="equilibria_stability",
         title="How stable they are",
@@ -645,7 +676,7 @@ def _state_matrix(context: Context) -> Step:
         source=_SOURCE,
         working=tuple(working),
         result=(equation(letters.LINEAR_A, context.form("linear_A")),),
-        notes=((jumps,),) if _has_coulomb(robot) else (),
+        notes=((jumps,),) if any(act.functions(robot) for act in has_friction) else (),
         detail=Detail.BRIEF,
     )
 

@@ -919,8 +919,12 @@ gravity: none
 springs: [{energy: "x^4/4 - 2*x^2 + x*y^2 + y^2"}]
 find: [equilibria]
 """
-    shown = " ".join(report(dynsolve.solve(text), Format.TEXT).decode().split())
-    assert "Where 1 + x = 0, 3 + y² is not 0." in shown
+    assert "Where 1 + x = 0, 3 + y² is not 0." in read(text)
+
+
+def read(problem: str) -> str:
+    """The text without its line breaks."""
+    return " ".join(report(dynsolve.solve(problem), Format.TEXT).decode().split())
 
 
 def test_that_coulomb_friction_holds_more_is_said() -> None:
@@ -932,8 +936,27 @@ springs: [{stiffness: k, of: x}]
 find: [equilibria]
 """
     friction = spring.replace("find:", "friction: {x: {coulomb: fc}}\nfind:")
-    assert "there is rest, too" in str(told_of(friction).outcome)
-    assert "there is rest, too" not in str(told_of(spring).outcome)
+    assert "equilibria are where -f_c ≤ k x ≤ f_c." in read(friction)
+    assert "Coulomb" not in read(spring)
+
+
+def test_what_is_not_stable_is_said_to_be_so_without_coulomb_friction() -> None:
+    """Of a pendulum that is upright; with friction it stays wherever m g l |sin q| ≤ 2μ."""
+    pendulum = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, q: revolute}
+  bodies: [{mass: M, at: [x, 0, 0]}, {mass: m, at: [x + l*sin(q), -l*cos(q), 0]}]
+springs: [{stiffness: k, of: x}]
+friction: {q: {coulomb: 2*mu}}
+find: [equilibria]
+"""
+    told = read(pendulum)
+    assert "the equilibria are where k x = 0 and -2μ ≤ m g l sin(q) ≤ 2μ." in told
+    assert "not stable. All this is without Coulomb friction, which can hold what is not stable." in told
+    assert "All this" not in read(pendulum.replace("-l*cos(q)", "0"))
+    held = pendulum.replace("find:", "inputs: given\npassive: [x]\nfind:")
+    assert "Coulomb" not in str(told_of(held).outcome)
 
 
 SPRUNG = """
