@@ -297,6 +297,9 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
     process.kill()
 
 
+ANSWERS_WITHIN = "10s"
+"""So long a Dask scheduler is waited for, also one that is lost on the way."""
+
 GOES_ON = "what is done is kept, and the same command goes on"
 PATIENCE = 6
 """So often in a row a cluster without workers is looked at before it is given up."""
@@ -321,7 +324,7 @@ class ClusterPool:
             import_module("distributed.comm").get_address_host_port(
                 address
             )  # a Client that fails here is noisy
-            self._client: Any = distributed.Client(address, timeout="10s", set_as_default=False)
+            self._client: Any = distributed.Client(address, timeout=ANSWERS_WITHIN, set_as_default=False)
         except Exception as error:  # noqa: BLE001  # theirs, of many kinds: an address of nonsense is any of them
             said = " ".join(str(error).split()) or type(error).__name__
             message = f"no Dask scheduler answers at {address[:80]}: {said[:200]}"

@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import UsageError
+from dynsolve.grading import pool
 from dynsolve.grading.pool import PATIENCE, Bounds, ClusterPool, Data, _is_ours, _quiet, run_bounded
 from tests.cli.running import dynsolve, environment
 from tests.grading.generate import course, problem_set
@@ -72,7 +73,9 @@ DRIVER = """
 import os, signal, sys
 import dynsolve
 from dynsolve.errors import DynsolveError
+from dynsolve.grading import pool
 
+pool.ANSWERS_WITHIN = "4s"
 problems, hand_ins, out, address, group, at = sys.argv[1:]
 
 def progress(done, of):
@@ -142,9 +145,9 @@ def test_the_bounds_hold_on_a_cluster_too(tmp_path: Path) -> None:
 
 def test_workers_of_another_version_are_refused() -> None:
     assert run_bounded({}, 1, 1 << 30, "another") == {"stranger": True}
-    pool, done, future = object.__new__(ClusterPool), Future[Data](), Future[Data]()
+    cluster, done, future = object.__new__(ClusterPool), Future[Data](), Future[Data]()
     done.set_result({"stranger": True})
-    pool._pass_on(done, future)
+    cluster._pass_on(done, future)
     with pytest.raises(UsageError, match="another version of dynsolve"):
         future.result()
 
@@ -154,11 +157,11 @@ def test_a_cluster_without_workers_is_given_up() -> None:
         def nthreads(self) -> dict[str, int]:
             return {}
 
-    pool = object.__new__(ClusterPool)
-    pool.address, pool._alone, pool._client = "tcp://x:1", 0, Client()
+    cluster = object.__new__(ClusterPool)
+    cluster.address, cluster._alone, cluster._client = "tcp://x:1", 0, Client()
     with pytest.raises(UsageError, match="has no workers; what is done is kept"):
         for _ in range(PATIENCE):
-            pool.check()
+            cluster.check()
 
 
 def test_a_connection_that_is_lost_is_no_page_of_traceback(caplog: pytest.LogCaptureFixture) -> None:
@@ -179,13 +182,10 @@ def test_without_the_extra_the_remedy_is_said(monkeypatch: pytest.MonkeyPatch) -
         ClusterPool("tcp://127.0.0.1:9", Bounds())
 
 
-def test_an_address_where_nobody_answers_is_said(tmp_path: Path) -> None:
-    problem_set(tmp_path / "set")
-    course(tmp_path / "in", 1)
-    words = (str(tmp_path / "set"), str(tmp_path / "in"), "-o", str(tmp_path / "out"))
-    ran = dynsolve("grade", *words, "--cluster", "tcp://127.0.0.1:9")
-    assert ran.code == 2
-    assert "no Dask scheduler answers" in ran.err
+def test_an_address_where_nobody_answers_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pool, "ANSWERS_WITHIN", "0.5s")
+    with pytest.raises(UsageError, match="no Dask scheduler answers"):
+        ClusterPool("tcp://127.0.0.1:9", Bounds())
 
 
 @pytest.mark.parametrize(("kind", "is_told"), [("CommClosedError", False), ("ValueError", True)])
