@@ -137,6 +137,7 @@ class _Independent:
                 places[angle] = (size, size + 1)
                 size += 2
         self.places = places
+        self.leaves: dict[Node, fmpq_mpoly] = {}
         self.ctx = ring.ctx if size == len(ring.generators) else fmpq_mpoly_ctx.get(("x", size), Ordering.lex)
         self.trigonometric = {place for both in places.values() for place in both}
 
@@ -161,7 +162,9 @@ class _Independent:
             case Function("sin" | "cos" as name, argument):
                 angle = angle_from_tree(argument)
                 return put[name, angle] if (name, angle) in put else self._of_angle(angle)[name == "sin"]
-        return self._own(value_of(self.ring, node))
+        if node not in self.leaves:
+            self.leaves[node] = self._own(value_of(self.ring, node))
+        return self.leaves[node]
 
     def _own(self, value: Expr) -> fmpq_mpoly:
         return value.poly if self.ctx is self.ring.ctx else value.poly.project_to_context(self.ctx)

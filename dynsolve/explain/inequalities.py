@@ -18,6 +18,8 @@ from dynsolve.robot.model import Robot
 
 _TURNED = {">": "<", "≥": "≤", "<": ">", "≤": "≥"}
 
+_compactor = lru_cache(maxsize=8)(Compactor)  # what is checked, explained and exported has the same forms
+
 
 class Inequalities:
     """The inequalities of one robot, in its ring or one of a search."""
@@ -68,14 +70,7 @@ class Inequalities:
         named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
         leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
         parallel = tuple(parallel_coordinates(self.robot))
-        return _compactor(ring, tuple(leading), parallel, self.robot.has_decimals)
-
-
-@lru_cache(maxsize=8)  # what is checked, explained and exported has the same forms
-def _compactor(
-    ring: Ring, leading: tuple[str, ...], parallel: tuple[frozenset[str], ...], decimal: bool
-) -> Compactor:
-    return Compactor(ring, leading, parallel, decimal=decimal)
+        return _compactor(ring, tuple(leading), parallel, decimal=self.robot.has_decimals)
 
 
 def _squared(value: Expr) -> list[Expr]:

@@ -214,10 +214,10 @@ def kinds_in(nodes: Iterable[Node], style: Style) -> set[Kind]:
         if id(node) in seen:
             continue
         seen.add(id(node))
-        kind = kind_of(node, style)
+        kind = kind_of(node, style) if isinstance(node, (Letter, Symbol, Function)) else None
         if kind is not None:
             found.add(kind)
-        if isinstance(node, Letter | Symbol) and node.dots:
+        if isinstance(node, (Letter, Symbol)) and node.dots:
             found.add(TIME)  # a dot is a derivative by it
         if isinstance(node, Transpose):
             found.add(TRANSPOSED)

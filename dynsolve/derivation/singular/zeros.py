@@ -237,11 +237,14 @@ class Condition(Struct, frozen=True, dict=True):
     def _less_terms(self, other: Expr) -> Iterator[Expr]:
         """Another expression less multiples of this one, in each of which a term is gone."""
         ring = other.ring
-        mine = self.expr.poly.to_dict().items()
+        mine = [
+            ([(i, int(e)) for i, e in enumerate(own) if e], own, divisor)
+            for own, divisor in self.expr.poly.to_dict().items()
+        ]
         for key, factor in other.poly.to_dict().items():
-            for own, divisor in mine:
-                powers = tuple(int(a) - int(b) for a, b in zip(key, own, strict=True))
-                if min(powers, default=0) >= 0:
+            for places, own, divisor in mine:
+                if all(key[i] >= e for i, e in places):
+                    powers = tuple(int(a) - int(b) for a, b in zip(key, own, strict=True))
                     yield other - Expr(ring, ring.ctx.from_dict({powers: factor / divisor})) * self.expr
 
     def _divides(self, other: Expr) -> bool:
