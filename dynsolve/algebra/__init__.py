@@ -19,7 +19,8 @@ Arrows run one way, from the first of these files to the last:
     matrix              matrices, determinants and minors; values put for coordinates
     sampling            the values at which formulas are compared; from one ring into another
     parameter_span      combinations of unknown parameters over the fractions in known ones
-    linear_systems      matrices of fractions, systems of linear equations, spaces
+    linear_systems      matrices of fractions, systems of linear equations
+    spaces              what a matrix takes to zero, what it reaches
     inequality          inequalities between parameters that follow from others
     surds               sums of square roots, angles with such sines and cosines, formulas of numbers
     compact             what a textbook would print

@@ -14,10 +14,7 @@ left as a symbol.
 
 Golub, Van Loan, Matrix Computations, section 5.5; Ben-Israel, Greville, Generalized Inverses, 1.6.
 
-Spaces spanned by exact vectors: what a matrix takes to zero, what it reaches, whether two are the same.
-
-A basis is a matrix whose columns span the space; of {0} it has no columns.  Ranks are those for
-general values of what is left as a symbol.
+A basis of a space (`spaces`) is a matrix whose columns span it; of {0} it has no columns.
 """
 
 from __future__ import annotations
@@ -29,10 +26,9 @@ from math import gcd, lcm
 
 from msgspec import Struct
 
-from dynsolve.algebra.factors import is_positive
-from dynsolve.algebra.fraction import RationalExpr, cancelled, equal, is_zero, multiply
-from dynsolve.algebra.lowest_terms import without_shared, zero_of_all
-from dynsolve.algebra.matrix import Matrix, determinant, minors
+from dynsolve.algebra.fraction import RationalExpr, cancelled, equal, is_zero
+from dynsolve.algebra.lowest_terms import without_shared
+from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.algebra.ring import Expr, Ring
 
 
@@ -207,74 +203,6 @@ def is_solvable(matrix: Matrix, right: Matrix) -> bool:
 
 
 # Spaces spanned by exact vectors
-
-
-def nullspace(matrix: Matrix) -> Matrix:
-    """A basis of the x with A x = 0, without denominators.
-
-    With r independent rows and columns that meet in M, a further column j depends on these:
-    x_j = det M, and the others are -adj M times that column.
-    """
-    found, ring = _pivots(matrix), matrix.ring
-    width = matrix.shape[1]
-    M = part(matrix, found.rows, found.columns)
-    size = determinant(M) if found.rank else ring.one
-    vectors = []
-    for free in (j for j in range(width) if j not in found.columns):
-        vector = [ring.zero] * width
-        vector[free] = size
-        depending = adjugate(M) @ part(matrix, found.rows, (free,)) if found.rank else None
-        for k, column in enumerate(found.columns):
-            assert depending is not None
-            vector[column] = -depending[k, 0]
-        vectors.append(primitive(vector))
-    return basis(matrix, vectors, width)
-
-
-def _pivots(matrix: Matrix) -> RankParts:
-    """Independent rows and columns; where there are several further columns, with det M never 0 if it can be.
-
-    Their vectors are independent then in every configuration.
-    """
-    found, width = rank_parts(matrix), matrix.shape[1]
-    if not 0 < found.rank < width - 1:
-        return found
-    parts = [RankParts(found.rows, columns) for columns in combinations(range(width), found.rank)]
-    sizes = ((one, determinant(part(matrix, one.rows, one.columns))) for one in (found, *parts))
-    return next((one for one, size in sizes if is_positive(size) or is_positive(-size)), found)
-
-
-def dependent_where(matrix: Matrix, vectors: Matrix) -> Expr | None:
-    """What is 0 where a factor makes the vectors of its null space dependent; None where that is too long.
-
-    Their minors are those of A, in lowest terms, times this.
-
-    >>> from dynsolve.algebra.ring_values import build_ring
-    >>> ring = build_ring([(name, "prismatic") for name in "xyz"], [])
-    >>> row = Matrix.of(ring, [[ring.symbol(name) for name in "xyz"]])
-    >>> dependent_where(row, nullspace(row))
-    Expr(1*x)
-    """
-    found = _pivots(matrix)
-    if not found.rank:
-        return matrix.ring.one
-    size = determinant(part(matrix, found.rows, found.columns))
-    shared = zero_of_all(list(minors(part(matrix, found.rows, tuple(range(matrix.shape[1]))), found.rank)))
-    if shared is None:
-        return None
-    value = cancelled(RationalExpr(shared, size))
-    for k, free in enumerate(j for j in range(matrix.shape[1]) if j not in found.columns):
-        value = cancelled(multiply(value, RationalExpr(vectors[free, k])))
-    return value.numerator if value.divisor is None else None
-
-
-def rangespace(matrix: Matrix) -> Matrix:
-    """A basis of all A x: independent columns; of a matrix with independent rows the unit vectors."""
-    found, height = rank_parts(matrix), matrix.shape[0]
-    if found.rank == height:
-        return Matrix.identity(matrix.ring, height)
-    vectors = [primitive([row[j] for row in matrix.rows]) for j in found.columns]
-    return basis(matrix, vectors, height)
 
 
 def basis(like: Matrix, vectors: Sequence[Sequence[Expr]], height: int) -> Matrix:

@@ -152,8 +152,9 @@ class _Exporter:
                     _fill(results.setdefault("euler_lagrange", equations), family.json, values)
         results.setdefault("bodies", bodies)
         results |= {quantity.name: self.value(quantity) for quantity in self.asked()}
-        for stage in ASKED_FOR:
-            if stage.value in results and hasattr(question := stage.part("export"), "beside"):
+        asked = {quantity.family.stage for quantity in self.asked()}
+        for stage in (stage for stage in ASKED_FOR if stage in asked):
+            if hasattr(question := stage.part("export"), "beside"):
                 results |= dict(question.beside(self.export))
         return results | dict(table_results(self.solution, self.python))
 

@@ -28,7 +28,7 @@ WORDS = re.compile(
     r"\b(?:ranks?|stretched|bent|folded|constant|mov(?:es?|ing)|depends?|minim(?:um|a)|maxim(?:um|a)|saddle"
     r"|(?:un)?stable|along|negative|positive|conserved|parallel|perpendicular|always|never|zero|vanish(?:es)?"
     r"|independent|same|singular|occurs?|appears?|diagonal"
-    r"|vectors are dependent|too few|this vector)\b",
+    r"|too few)\b",
     re.IGNORECASE,
 )
 
@@ -741,8 +741,13 @@ def _many_come_nearest(m: Mechanism, s: Sentence) -> bool:
     return rank(J) == int(s.words[-1]) < min(J.shape)
 
 
-@says("All this holds where the rank of {} is #.")
+@says("All this holds where the rank of {} is #[ and {}][ and these vectors are independent].")
 def _holds_where_rank(m: Mechanism, s: Sentence) -> bool:
+    """In general; where something may not be 0, the vectors that the step shows are dependent where it is."""
+    if len(s.formulas) == 2:
+        p = m.where(tree.equation(s.formulas[1].parts[0], tree.ZERO))
+        if rank(np.hstack([m.value(node, p) for node in s.vectors()])) == len(s.vectors()):
+            return False
     return rank(s.jacobian(m, m.point())) == int(s.words[0])
 
 
@@ -1025,12 +1030,6 @@ def _more_is_free(m: Mechanism, s: Sentence) -> bool:
     return True
 
 
-@says("Where {}, <these vectors are dependent|this vector is 0>.")
-def _vectors_are_dependent(m: Mechanism, s: Sentence) -> bool:
-    columns = [m.value(node, m.where(s.formulas[0])) for node in s.vectors()]
-    return rank(np.hstack(columns)) < len(columns)
-
-
 @says("The rank of {} is <# more than|as great as> that of what is left.")
 def _cleared(m: Mechanism, s: Sentence) -> bool:
     core = next(block.node for block in s.step[s.place :] if isinstance(block, document.Formula))
@@ -1044,7 +1043,25 @@ def _dimension(m: Mechanism, s: Sentence) -> bool:
     told, dimension = map(int, s.words)
     rows, columns = J.shape
     left = told if "possible" in s.where else (rows if "lost" in s.where else columns) - told
-    return rank(J) == told and dimension == left
+    return (
+        rank(J) == told
+        and dimension == left
+        and all(_is_basis(m, s, told, m.point(p)) for p in m.right_angles())
+    )
+
+
+def _is_basis(m: Mechanism, s: Sentence, told: int, p: Point) -> bool:
+    """Whether the vectors of a space are independent at a pose where the conditions are met."""
+    said = [nodes for text, nodes in s.before() if text.startswith("All this holds where")]
+    needed = [node for nodes in said for node in nodes if isinstance(node, tree.Relation)]
+    vectors = s.vectors()
+    if (
+        not vectors
+        or rank(s.jacobian(m, p)) < told
+        or any(near(m.value(one.parts[0], p), 0) for one in needed)
+    ):
+        return True
+    return rank(np.hstack([m.value(node, p) for node in vectors])) == len(vectors)
 
 
 @says("All others are 0, or differ from <these|this> in sign alone:")

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.algebra.linear_systems import adjugate, dependent_where, nullspace, quotient
+from dynsolve.algebra.linear_systems import adjugate, quotient
 from dynsolve.algebra.lowest_terms import zero_of_all
 from dynsolve.algebra.matrix import Matrix, determinant, minors
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.spaces import dependent_where, nullspace
 from dynsolve.derivation.allowed import NOT_SHOWN
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.link_frame import velocities
@@ -251,7 +252,7 @@ def _reduced(context: Context) -> Iterator[Step]:
 def _freer(context: Context, Z: Matrix) -> Prose:
     """Where the columns of Z, or the rows of A_c, are dependent: where more is free than these columns."""
     A, free = context.values["Ac"], Z.shape[1]
-    lost = dependent_where(A, Z), zero_of_all(list(minors(A, A.shape[1] - free)))
+    lost = dependent_where(Z), zero_of_all(list(minors(A, A.shape[1] - free)))
     forms = SetForms(context.robot, context.values)
     where = [shown for value in lost if value is not None and (shown := forms.vanishing(value)) != ONE]
     zeros = [equation(one, ZERO) for one in dict.fromkeys(where)]

@@ -22,7 +22,6 @@ from dynsolve.algebra.linear_systems import (
     FractionMatrix,
     adjugate,
     fraction_of,
-    nullspace,
     part,
     quotient,
     rank_parts,
@@ -30,6 +29,7 @@ from dynsolve.algebra.linear_systems import (
 from dynsolve.algebra.matrix import Matrix, determinant, minors
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.sampling import Transfer
+from dynsolve.algebra.spaces import nullspace
 from dynsolve.derivation.allowed import Allowed, where_allowed
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import DEGREES, quarter_turn

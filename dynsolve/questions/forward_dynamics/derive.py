@@ -23,10 +23,11 @@ from functools import partial
 
 from msgspec import Struct
 
-from dynsolve.algebra.linear_systems import FractionMatrix, inverse_times, nullspace
+from dynsolve.algebra.linear_systems import FractionMatrix, inverse_times
 from dynsolve.algebra.lowest_terms import without_shared
 from dynsolve.algebra.matrix import Matrix, work
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.spaces import nullspace
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import FOR_EVERY_Q

@@ -1,4 +1,7 @@
-"""Joint rates and accelerations for those of the task, and what the joints and the task can do."""
+"""Joint rates and accelerations for those of the task, and what the joints and the task can do.
+
+`holding` finds the conditions under which they are right: the rank of the Jacobian, and what may not be 0.
+"""
 
 from __future__ import annotations
 

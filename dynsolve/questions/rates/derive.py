@@ -8,15 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from dynsolve.algebra.linear_systems import (
-    FractionMatrix,
-    adjugate,
-    nullspace,
-    pseudoinverse_times,
-    rangespace,
-)
+from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, pseudoinverse_times
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.spaces import nullspace, rangespace
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.robot.model import Robot

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import chain, combinations
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.factors import is_never_zero
-from dynsolve.algebra.linear_systems import dependent_where, is_solvable, rank_parts
-from dynsolve.algebra.matrix import AtState, Matrix, determinant, minors, work
-from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.linear_systems import is_solvable, rank_parts
+from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
@@ -24,7 +21,8 @@ from dynsolve.notation.tree import ONE, ZERO, Node, Parenthesized, Power, Sum, S
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.questions.rates.derive import MOST_PRODUCTS, lost_motions, squared, wanted_by_accelerations
-from dynsolve.questions.set_forms import SetForms, may_vanish
+from dynsolve.questions.rates.holding import of_rates, of_space
+from dynsolve.questions.set_forms import SetForms
 from dynsolve.robot.model import Robot
 
 _J = letters.J_TASK
@@ -149,7 +147,8 @@ class _System:
             and len({q.type for q in self.context.robot.coordinates}) > 1
         ):
             how += _MIXED
-        return how + _where_rank(self.context, self.J, rank)
+        holds = of_rates(SetForms(self.context.robot, self.context.values)).prose
+        return (*how, *holds, " ") if holds else how
 
     @property
     def _pseudoinverse(self) -> Node:
@@ -213,32 +212,6 @@ def _none(context: Context, J: Matrix, right: Matrix) -> Prose:
     return say("a solution only where {these}", these=listed([equation(one, ZERO) for one in these]))
 
 
-def _where_rank(context: Context, J: Matrix, rank: int) -> Prose:
-    """Where all is so that its rank decides, unless that is seen to be the same in every configuration."""
-    if rank == 0:
-        return ()
-    if work(squared(J)) <= MOST_PRODUCTS:
-        if any(map(is_never_zero, minors(J, rank))):
-            return ()
-        if J.shape != (rank, rank):
-            if any(map(is_never_zero, chain(_sizes(J, rank), _sizes(J.T, rank)))):
-                return ()
-        else:
-            size = may_vanish(determinant(J))
-            is_full = SetForms(context.robot, context.values).comparison(size, "≠")
-            if is_small(is_full):
-                return say("All this holds where {is_full}. ", is_full=is_full)
-    return say("All this holds where the rank of $𝐉_r$ is {rank}. ", rank=rank)
-
-
-def _sizes(J: Matrix, rank: int) -> Iterator[Expr]:
-    """det(Mᵀ M) of so many columns M: 0 where they are dependent."""
-    for chosen in combinations(J.T.rows, rank):
-        columns = Matrix(J.ring, chosen)
-        if work(square := columns @ columns.T) <= MOST_PRODUCTS:
-            yield determinant(square)
-
-
 def square_of(letter: Node, matrix: Matrix) -> Node:
     """J, or the smaller of (J Jᵀ) and (Jᵀ J) where J is not square: what has a determinant."""
     rows, columns = matrix.shape
@@ -293,30 +266,16 @@ def _space(context: Context, name: str) -> Step:
     vectors = [column_of(form, k) for k in range(len(form.rows[0]))]
     spanned = formula("span ({vectors})", vectors=side_by_side(vectors)) if vectors else Words("{0}")
     rank, count = rank_parts(J).rank, len(vectors)
-    dependent: Prose = ()
-    if vectors and name != "rangespace":
-        dependent = _dependent(context, J.T if name == "lost" else J, context.values[name])
+    holds = of_space(SetForms(context.robot, context.values), name).prose
     if name == "lost" and not vectors:
         what = "Nothing but $𝟎$ is orthogonal to all possible velocities: no motion is lost."
     return replace(
         found,
-        why=(*say(what), " ", *_where_rank(context, J, rank), *_state_once(context, name)),
+        why=(*say(what), " ", *holds, *([" "] if holds else []), *_state_once(context, name)),
         working=(equation(_J, context.show(J)),),
         result=(equation(letter, spanned),),
-        notes=((f"The rank is {rank}, and the dimension of this space {count}.", *dependent),),
+        notes=((f"The rank is {rank}, and the dimension of this space {count}.",),),
     )
-
-
-def _dependent(context: Context, matrix: Matrix, vectors: Matrix) -> Prose:
-    """Where a factor makes the vectors of a null space dependent, or the only one 0."""
-    value = dependent_where(matrix, vectors)
-    if value is None:
-        return ()
-    where = SetForms(context.robot, context.values).vanishing(value)
-    if where == ONE:
-        return ()
-    are = "these vectors are dependent" if vectors.shape[1] > 1 else "this vector is 0"
-    return say(f" Where {{zero}}, {are}.", zero=equation(where, ZERO))
 
 
 # -- hints -----------------------------------------------------------------------------------------

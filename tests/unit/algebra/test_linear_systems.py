@@ -12,15 +12,14 @@ from dynsolve.algebra.linear_systems import (
     FractionMatrix,
     fraction_of,
     is_solvable,
-    nullspace,
     pseudoinverse_times,
-    rangespace,
     rank_parts,
     same_span,
 )
 from dynsolve.algebra.matrix import Matrix, determinant, minors
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import build_ring, value_of
+from dynsolve.algebra.spaces import nullspace, rangespace
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Symbol
 
