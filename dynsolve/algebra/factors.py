@@ -24,7 +24,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache, lru_cache
 from itertools import combinations, product
-from math import cos, isqrt, prod, radians, sin
+from math import cos, isqrt, prod, radians, sin, sqrt
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, nmod_mpoly_ctx
@@ -90,12 +90,28 @@ def parameters(expr: Expr) -> frozenset[int]:
 
 def _is_constant(g: Generator) -> bool:
     """Whether a generator is a positive number."""
+    return (_size(g) or 0) > 0
+
+
+def _size(g: Generator) -> float | None:
+    """The number that √2 or cos 20° is; None of what is no number."""
     if g.kind == "root":
-        return isinstance(g.node, Number)
+        return sqrt(g.node.p / g.node.q) if isinstance(g.node, Number) else None
     if g.kind not in ("sin", "cos", "constant") or not g.angle.is_constant:
-        return False
+        return None
     angle = radians(g.angle.degrees)
-    return (sin(angle) if g.kind == "sin" else cos(angle)) > 0
+    return sin(angle) if g.kind == "sin" else cos(angle)
+
+
+def in_numbers(expr: Expr) -> dict[tuple[int, ...], float]:
+    """What stands before its products as a number, with √2 and cos 20°, by the exponents of all else."""
+    sizes = {g.index: size for g in expr.ring.generators if (size := _size(g)) is not None}
+    found: dict[tuple[int, ...], float] = {}
+    for exponents, factor in expr.poly.to_dict().items():
+        key = tuple(0 if i in sizes else int(e) for i, e in enumerate(exponents))
+        number = prod(size ** int(exponents[i]) for i, size in sizes.items())
+        found[key] = found.get(key, 0.0) + float(factor.p) / float(factor.q) * number
+    return found
 
 
 def _holds_only(exponents: Sequence[int], places: frozenset[int]) -> bool:

@@ -75,7 +75,7 @@ def is_seen(values: Sequence[Expr], signs: ParameterSigns) -> bool:
     """
     return all(
         _swing_apart(group, signs)
-        or any(all(map(_is_zero, at)) for _, at in _at_quarters(group))
+        or any(True for _ in zeros_at_quarters(group))
         or (len(group) == 1 and (square_of(group[0]) is not None or _changes_sign(group[0], signs)))
         for group in map(partial(_without_solved, signs=signs), _apart(values))
     )
@@ -86,7 +86,7 @@ def _without_solved(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]
     kept = []
     for value in values:
         others = [other for other in values if other is not value]
-        own = {*_coordinates(value)}.difference(*map(_coordinates, others))
+        own = {*coordinates_in(value)}.difference(*map(coordinates_in, others))
         degrees = {name: int(value.poly.degrees()[value.ring.symbol_indices[name, 0]]) for name in own}
         leading = (_leading(value, name, degree) for name, degree in degrees.items() if degree % 2)
         if not any(_is_never_zero(one, others, signs) for one in leading):
@@ -96,25 +96,25 @@ def _without_solved(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]
 
 def _is_never_zero(value: Expr, zeros: Iterable[Expr], signs: ParameterSigns) -> bool:
     """Whether a value is not 0 where others are that fix its angles at quarter turns."""
-    names = {*_coordinates(value)}
+    names = {*coordinates_in(value)}
     fixing = [
         zero
         for zero in zeros
-        if len(_coordinates(zero)) == 1
-        and names.issuperset(_coordinates(zero))
+        if len(coordinates_in(zero)) == 1
+        and names.issuperset(coordinates_in(zero))
         and (swings := _swings(zero))
         and _quarters(swings)
     ]
     at = [here for _, (here, *left) in _at_quarters([value, *fixing]) if all(map(_is_zero, left))]
     known = all(signs.is_positive(here) or signs.is_positive(-here) for here in at)
-    return bool(at) and known and names.issubset(name for zero in fixing for name in _coordinates(zero))
+    return bool(at) and known and names.issubset(name for zero in fixing for name in coordinates_in(zero))
 
 
 def _apart(values: Iterable[Expr]) -> list[list[Expr]]:
     """The values in groups that share no coordinate."""
     found: list[tuple[set[str], list[Expr]]] = []
     for value in values:
-        names, group = set(_coordinates(value)), [value]
+        names, group = set(coordinates_in(value)), [value]
         for one in [one for one in found if one[0] & names]:
             found.remove(one)
             names |= one[0]
@@ -123,7 +123,8 @@ def _apart(values: Iterable[Expr]) -> list[list[Expr]]:
     return [group for _, group in found]
 
 
-def _coordinates(value: Expr) -> list[str]:
+def coordinates_in(value: Expr) -> list[str]:
+    """The coordinates that stand in a value, or in its angles."""
     ring, degrees = value.ring, value.poly.degrees()
     turning = {
         name
@@ -174,40 +175,57 @@ def _is_zero(value: Expr) -> bool:
 
 
 def rests(values: Sequence[Expr]) -> Iterator[Pose]:
-    """The quarter turns at which k φ - m g l sin φ is 0, or sin φ + sin ψ; none where lengths stand there."""
-    if not values:
-        return
+    """The quarter turns at which k φ - m g l sin φ is 0, or sin φ + sin ψ; none of what has lengths."""
+    kinds = dict(values[0].ring.coordinates) if values else {}
+    turning = (
+        g for g in _apart(values) if all(kinds[name] == "revolute" for v in g for name in coordinates_in(v))
+    )
+    each = [poses for group in turning if (poses := [*zeros_at_quarters(group)])]
+    for chosen in product(*each) if each else ():
+        yield {name: degrees for pose in chosen for name, degrees in pose.items()}
+
+
+def zeros_at_quarters(values: Sequence[Expr]) -> Iterator[Pose]:
+    """The quarter turns at which all values are 0, where their lengths are."""
     ring = values[0].ring
     if not ring.has_symbol("pi"):  # half a turn of a spring
         values = [*map(Transfer(ring, with_symbols(ring, ["pi"])), values)]
-    kinds = dict(ring.coordinates)
-    if all(kinds[name] == "revolute" for value in values for name in _coordinates(value)):
-        yield from (pose for pose, at in _at_quarters(values) if pose and all(map(_is_zero, at)))
+    yield from (pose for pose, at in _at_quarters(values) if all(map(_is_zero, at)))
 
 
 def _at_quarters(values: Sequence[Expr]) -> Iterator[tuple[Pose, list[Expr]]]:
     """The values at all quarter turns of their angles, where their lengths are 0."""
     ring = values[0].ring
-    names = dict.fromkeys(name for value in values for name in _coordinates(value))
+    names = dict.fromkeys(name for value in values for name in coordinates_in(value))
     turning = [name for name, kind in ring.coordinates if name in names and kind == "revolute"]
     if len(turning) > MOST_TURNING:
         return
+    angles = _angles(ring)
     for quarters in product((0, 1, 2, -1), repeat=len(turning)):
-        pose = {name: 90 * k / _rate(ring, name) for name, k in zip(turning, quarters, strict=True)}
-        bare = {ring.symbol_indices[name, 0]: _radians(ring, pose.get(name, 0)) for name in names}
+        pose = {
+            name: (90 * k - offset) / rate
+            for name, k in zip(turning, quarters, strict=True)
+            for rate, offset in [angles.get(name, (Fraction(1), Fraction(0)))]
+        }
+        bare = {ring.symbol_indices[name, 0]: radians(ring, pose.get(name, 0)) for name in names}
         images = {index: image.poly for index, image in bare.items() if image is not None}
         at = [ring.put(ring.at_pose(value, pose), images) for value in values]
         if not any(map(ring.depends_on_coordinates, at)):
             yield pose, at
 
 
-def _rate(ring: Ring, name: str) -> Fraction:
-    """The rate r of the angle r q in the ring; 1 where there is none."""
-    rates = (rate for pair in ring.pairs for atom, rate in pair.angle.terms if name_alone(atom) == name)
-    return next(rates, Fraction(1))
+def _angles(ring: Ring) -> dict[str, tuple[Fraction, Fraction]]:
+    """The rate r and the degrees of the angle r q + 30° of each coordinate, those of sums last."""
+    found: dict[str, tuple[Fraction, Fraction]] = {}
+    for pair in sorted(_turning(ring), key=lambda pair: len(pair.angle.terms)):
+        rates = {name_alone(atom): rate for atom, rate in pair.angle.terms if name_alone(atom) in ring.names}
+        ahead = sum(rates[name] * found[name][1] / found[name][0] for name in rates if name in found)
+        for name in [name for name in rates if name not in found][:1]:
+            found[name] = rates[name], pair.angle.degrees - ahead
+    return found
 
 
-def _radians(ring: Ring, degrees: Fraction | int) -> Expr | None:
+def radians(ring: Ring, degrees: Fraction | int) -> Expr | None:
     """So many degrees as a part of π; None where the ring does not have that."""
     if not degrees:
         return ring.zero
@@ -218,7 +236,7 @@ def _changes_sign(value: Expr, signs: ParameterSigns) -> bool:
     """Whether a value is positive somewhere and negative elsewhere: at quarter turns, or far out."""
     seen = {sign for _, (at,) in _at_quarters([value]) for sign in (1, -1) if signs.is_positive(at * sign)}
     ring, degrees = value.ring, value.poly.degrees()
-    for name in _coordinates(value):
+    for name in coordinates_in(value):
         degree = int(degrees[ring.symbol_indices[name, 0]])
         if degree > 0 and not ring.depends_on_coordinates(leading := _leading(value, name, degree)):
             ways = (1, -1) if degree % 2 else (1,)

@@ -8,9 +8,11 @@ eigenvalues of the second derivatives say, on either side of every condition.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from random import Random
 from typing import Any
 
@@ -24,14 +26,16 @@ Array = npt.NDArray[np.float64]
 
 ENERGIES = {
     "PP": "a*x*y, b*x^2/2, c*y^2/2, -d*x, a*x, -e*y, -b*x^4, d*y^4, (a - b)*x*y, x^2, -a*y^2/2",
-    "RP": "a*cos(x), -b*cos(x), a*y*sin(x), c*y^2/2, -d*y, (a - b)*y*cos(x), -y^2, d*cos(x)^2",
-    "RR": "a*cos(x), -b*cos(x), c*cos(y), -d*cos(x + y), a*cos(x - y), b*sin(x)*sin(y), (a - b)*cos(y)",
+    "RP": "a*cos(x), -b*cos(x), a*y*sin(x), c*y^2/2, -d*y, (a - b)*y*cos(x), -y^2, d*cos(x)^2, e*x^2/2",
+    "RR": "a*cos(x), -b*cos(x), c*cos(y), -d*cos(x + y), a*cos(x - y), b*sin(x)*sin(y), (a - b)*cos(y), "
+    "-e*cos(x + pi/6), c*x^2/2",
     "PPP": "x^2, y^2, z^2, -a*x*y, -b*y*z, -a*x*z, c*x^2/2, d*z^2/2, -e*y, (a - c)*x*z, b*y^2",
     "RRP": "a*cos(x), -b*cos(y), c*z^2/2, -d*z*cos(x), e*z, (a - b)*cos(x), a*cos(x - y), -c*z*y",
 }
 """Terms, by the kinds of the coordinates x, y and z."""
 
 KNOWN = {"sin": np.sin, "cos": np.cos, "pi": math.pi}
+QUARTERS = [k * math.pi / 2 for k in (-1, 0, 1, 2)] + [k * math.pi / 2 - math.pi / 6 for k in (-1, 0, 1, 2)]
 STEP = 1e-4
 CLOSE = 1e-7
 ROUGH = 1e-3
@@ -123,6 +127,22 @@ class Told:
                 turns.remove(f"stability = {point['stability']}")
                 yield point, [*one, *turns]
 
+    def names(self, at: Array, values: Mapping[str, float]) -> bool:
+        """Whether this is a point that is told, or of equations none of which has an angle and its sine."""
+        for point, equations in self.points(values):
+            turns = [angle for angle in point if angle not in ("stability", "stable_if", "unstable_if")]
+            is_there = np.max(np.abs(np.sin(self.residuals(equations, values)(at) / 2)), initial=0) < CLOSE
+            open_names = (name for name in self.of.names if any(is_mixed(one, name) for one in equations))
+            if is_there and all(any(name in angle for angle in turns) for name in open_names):
+                return True
+        return False
+
+
+def is_mixed(equation: str, name: str) -> bool:
+    """Whether an angle stands in an equation in a sine or a cosine, and elsewhere."""
+    plain = re.sub(r"(sin|cos)\([^)]*\)", "", equation)
+    return name in plain and any(name in found for found in re.findall(r"(?:sin|cos)\([^)]*\)", equation))
+
 
 def zero(function: Any, start: Array) -> Array | None:
     """A zero by Newton's method."""
@@ -152,6 +172,9 @@ SPRINGS = [
     Mechanism("RR", ("a*sin(x)", "b*sin(x + y)", "c*(x + y - pi/2)^2/2")),
     Mechanism("RR", ("-a*cos(x)", "-b*cos(y)", "c*(x - y)^2/2")),
     Mechanism("RR", ("-c*cos(x - y)",)),
+    Mechanism("RP", ("a*cos(x)", "c*x^2/2", "-d*y", "b*y^2/2")),
+    Mechanism("R", ("cos(x)", "x^2")),
+    Mechanism("RR", ("a*cos(x)", "-b*cos(x + y + pi/6)", "c*(y + pi/6)^2/2")),
     Mechanism("RRR", ("-a*sin(x + y)", "b*cos(x + y)*cos(z)", "-c*cos(z)")),
 ]
 """Springs at an angle, which therefore stands by itself, too, and between two."""
@@ -178,6 +201,29 @@ def test_against_differences(mechanism: Mechanism) -> None:
             holds_the_equilibria(told, alternatives, values, starts)
         if not told.is_special(values):
             holds_the_stability(told, values, starts)
+    for angles in product(QUARTERS, repeat=mechanism.kinds.count("R")):
+        names_the_pose(told, angles)
+
+
+def names_the_pose(told: Told, angles: tuple[float, ...]) -> None:
+    """Angles at which there is an equilibrium for all parameters are told."""
+    draw = Random(3)
+    for _ in range(3):
+        values = drawn(draw)
+        at = resting(told, angles, values)
+        if at is None or told.is_special(values):
+            return
+    assert told.names(at, values), angles
+
+
+def resting(told: Told, angles: tuple[float, ...], values: Mapping[str, float]) -> Array | None:
+    """The equilibrium at some angles, if there is one."""
+    turning = np.array(angles)
+    if len(angles) == len(told.of.names):
+        return turning if np.max(np.abs(told.of.slopes(turning, values))) < CLOSE else None
+    lengths = np.zeros(len(told.of.names) - len(angles))
+    found = zero(lambda y: told.of.slopes(np.append(turning, y), values), lengths)
+    return None if found is None else np.append(turning, found)
 
 
 def holds_the_equilibria(

@@ -10,6 +10,8 @@ from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.algebra.matrix import Matrix, determinant, vstack
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.existence import coordinates_in
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
@@ -186,8 +188,14 @@ def _combined(context: Context, shown: EquilibriaForms, found: Equilibria) -> tu
     if not robot.questions.constraints:
         balanced = forces_of_motion(context) if robot.questions.model.steady else context.values["g"]
         own = {sign * force for force in balanced.entries for sign in (1, -1)}
+    rings = {robot.ring: None} | {one.expr.ring: None for case in found.alternatives for one in case}
+    places = [Transfer(robot.ring, ring) for ring in rings]
     both = (
-        [equation(shown.condition(Condition(sign * row)), Number(0)) for sign in (1, -1)]
+        [
+            equation(shown.condition(Condition(sign * put(row))), Number(0))
+            for put in places
+            for sign in (1, -1)
+        ]
         for row in found.rows
     )
     rows = tuple(next((one for one in ways if one in said), ways[0]) for ways in both)
@@ -229,10 +237,21 @@ def _of_cases(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterat
     elif not cases[0]:
         yield say("Every configuration is an equilibrium{where}.", where=where)
     else:
+        for value, zero in found.only:
+            yield _only(shown, value, zero)
         yield from shown.existence("equilibria", found.exist, found.is_seen)
         yield from _unseen(found)
         if where:
             yield say("These are the equilibria{where}.", where=where)
+
+
+def _only(shown: EquilibriaForms, value: Expr, zero: Expr) -> Prose:
+    """k φ - m g l sin φ is 0 at φ = 0 alone, as it grows with φ everywhere."""
+    (name,) = coordinates_in(zero)
+    (at,) = shown.relations((Condition(zero),), (Symbol(name),))
+    growing = shown.compactor(value.ring).form(value)
+    text = "{growing} grows with {name} everywhere: it is 0 at {at} alone."
+    return say(text, growing=growing, name=Symbol(name), at=at)
 
 
 def _besides(context: Context, shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:

@@ -23,14 +23,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from itertools import product
-from math import prod
+from math import atan2, degrees, isclose, prod
 from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.angles import names_of
-from dynsolve.algebra.factors import trig_factors
+from dynsolve.algebra.angles import Angle, names_of
+from dynsolve.algebra.factors import in_numbers, trig_factors
+from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
@@ -39,7 +40,15 @@ from dynsolve.algebra.ring_values import ring_of
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.allowed import NOT_SHOWN
 from dynsolve.derivation.elimination import ParameterSigns
-from dynsolve.derivation.existence import conditions, is_seen, quarter_turn, without_ends
+from dynsolve.derivation.existence import (
+    conditions,
+    coordinates_in,
+    is_seen,
+    quarter_turn,
+    radians,
+    without_ends,
+    zeros_at_quarters,
+)
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, lies_in
@@ -51,6 +60,7 @@ from dynsolve.questions.equilibria.stability import (
     Curvature,
     Point,
     by_coordinates,
+    is_positive_throughout,
     quarter_turns,
 )
 from dynsolve.questions.parameters.derive import generators
@@ -61,6 +71,9 @@ MOST_TERMS = 200
 
 MOST_SPECIAL = 4
 """So many factors that may be 0 are told."""
+
+MOST_PARTS = 10
+"""Constant angles are looked for in such parts of a degree."""
 
 TOO_LONG = "gravity and springs are too long to be taken apart into factors"
 
@@ -110,6 +123,7 @@ class Equilibria(Struct, frozen=True):
     never: tuple[tuple[Alternative, Expr], ...] = ()
     is_seen: tuple[bool, ...] = ()
     singular: tuple[Alternative, ...] = ()
+    only: tuple[tuple[Expr, Expr], ...] = ()
 
 
 def held_elsewhere(found: Equilibria, number: int, without: Alternative) -> list[int]:
@@ -191,11 +205,14 @@ class _Search:
         self.special, self.of_rank = Special(self.signs), Special(self.signs)
         self.held = held.moved(self.there) if held else None
         self.wanted = [*map(self.there, wanted)]
+        self.only: dict[Expr, Expr] = {}
         self.left = tuple(combined(robot.ring, wanted, lambda factor: self.special.add(self.there(factor))))
 
     def found(self, forces: Matrix, inertia: Matrix | None, may_be_held: bool) -> Equilibria:
         """The equilibria; raises TooLong."""
         alternatives, settled = self._alternatives()
+        if self.held is None:
+            alternatives = tuple(dict.fromkeys(one for case in alternatives for one in self._narrowed(case)))
         excluded = dict(settled.pairs) if settled else {}
         possible = {
             one: bounds
@@ -227,6 +244,16 @@ class _Search:
             never=(*special.never, *never),
             is_seen=tuple(_is_seen(one, self.signs) for one in exist),
             singular=tuple(singular),
+            only=tuple(self.only.items()),
+        )
+
+    def _narrowed(self, case: Alternative) -> tuple[Alternative, ...]:
+        """A case with q = 0 for an equation in q that is 0 there alone, as it grows with q everywhere."""
+        zeros = [_only_zero(one.expr, self.signs) or (one.expr, one.expr) for one in case]
+        found = {value: zero for value, zero in zeros if value != zero}
+        self.only |= found
+        return (
+            common_zeros([zero for _, zero in zeros], self.special, keeps_products=True) if found else (case,)
         )
 
     def _alternatives(self) -> tuple[tuple[Alternative, ...], Settled | None]:
@@ -311,19 +338,64 @@ class _Search:
             yield from filter(None, (_of_rank(factor, self.held, settled, self.signs) for factor in moved))
 
 
+def _only_zero(value: Expr, signs: ParameterSigns) -> tuple[Expr, Expr] | None:
+    """±k φ ∓ m g l sin φ that grows with φ everywhere, and φ, which is 0 where it is; None of any other."""
+    names = coordinates_in(value)
+    if len(names) != 1 or Condition(value).fixes_coordinate:
+        return None
+    ring, (name,) = value.ring, names
+    slope = ring.diff(value, ring.names.index(name))
+    grows = [sign for sign in (1, -1) if is_positive_throughout(slope * sign, signs)]
+    for sign, pose in product(grows, zeros_at_quarters([value])):
+        at = radians(ring, pose.get(name, 0))
+        if at is not None:
+            return value * sign, ring.symbol(name) - at
+    return None
+
+
 def _search_ring(ring: Ring, wanted: Sequence[Expr]) -> Ring:
-    """The ring to search in, with q - a as an angle of it where that is shorter: a is that of a slope."""
+    """The ring to search in, with q - a as an angle of it where that is shorter: a is a slope, or 30°."""
     found = search_ring(ring, (), {})
+    places = range(len(found.plan.turning))
     fixed = [pair.angle for pair in found.pairs if not {*names_of(pair.angle)} & {*found.names}]
     for slope in (angle for angle in fixed if angle.terms):
-        others = [found]
-        for place, angle in product(range(len(found.plan.turning)), (slope, -slope)):
-            turning = [*found.plan.turning]
-            vector, offset = turning[place]
-            turning[place] = (vector, offset + angle)
-            others.append(ring_of(found.coordinates, replace(found.plan, turning=tuple(turning))))
-        found = min(others, key=lambda other: sum(len(one) for one in map(Transfer(ring, other), wanted)))
+        found = _shortest(
+            ring, wanted, [found, *(_ahead(found, *one) for one in product(places, (slope, -slope)))]
+        )
+    for _ in places:
+        rows = [*map(Transfer(ring, found), wanted)]
+        ahead = ((k, angle) for k in places for angle in _constants_ahead(found.pairs[k], rows))
+        with suppress(AlgebraError):  # the ring has not every constant angle
+            found = _shortest(ring, wanted, [found, *(_ahead(found, *one) for one in ahead)])
     return found
+
+
+def _shortest(ring: Ring, wanted: Sequence[Expr], rings: Sequence[Ring]) -> Ring:
+    """The ring in which what is wanted has the fewest terms."""
+    return min(rings, key=lambda other: sum(len(one) for one in map(Transfer(ring, other), wanted)))
+
+
+def _ahead(ring: Ring, place: int, angle: Angle) -> Ring:
+    """The ring with an angle that is ahead of one of its own."""
+    turning = [*ring.plan.turning]
+    vector, offset = turning[place]
+    turning[place] = (vector, offset + angle)
+    return ring_of(ring.coordinates, replace(ring.plan, turning=tuple(turning)))
+
+
+def _constants_ahead(pair: Pair, values: Iterable[Expr]) -> list[Angle]:
+    """Each a, up to quarter turns, of A sin(q + a) where A cos a sin q + A sin a cos q stands."""
+    parts: dict[Any, list[float]] = {}
+    turning = pair.sine, pair.cosine
+    for number, value in enumerate(values):
+        for exponents, size in in_numbers(value).items():
+            if sum(exponents[k] for k in turning) == 1:
+                key = tuple(0 if k in turning else e for k, e in enumerate(exponents))
+                parts.setdefault((number, key), [0.0, 0.0])[exponents[pair.cosine]] = size
+    found = [degrees(atan2(b, a)) % 90 for a, b in parts.values()]
+    exact = {Fraction(ahead).limit_denominator(MOST_PARTS): ahead for ahead in sorted(found)}
+    ways = [angle for angle, ahead in exact.items() if 0 < angle < 90 and isclose(angle, ahead)]
+    return [Angle((), angle - 90 * (angle > 45)) for angle in ways]
 
 
 def _splitting(ring: Ring, wanted: Sequence[Expr], found: Ring) -> Ring:
@@ -352,6 +424,7 @@ def _ring_of_sums(ring: Ring, case: Alternative) -> Ring:
         if fixed is None:
             continue
         moving, rest = by_coordinates(fixed[0], ring.names)
+        rest -= Angle((), moving.degrees)
         vector = tuple(Fraction(dict(moving.terms).get(((name, 1),), 0)) for name in ring.names)
         for place, (own, _) in reversed([*enumerate(turning)]):
             (rate, other), *more = ((a, abs(b)) for a, b in zip(own, vector, strict=True) if a)

@@ -64,16 +64,15 @@ def turned(values: Values) -> list[tuple[Angle, Fraction]]:
     """
     found = []
     for pair, sine, cosine in values:
-        angle, degrees = pair.angle, Fraction(DEGREES[sine, cosine])
-        if degrees > 180:
-            degrees -= 360
+        angle, degrees = pair.angle.linear, DEGREES[sine, cosine] - pair.angle.degrees
+        degrees = 180 - (180 - degrees) % 360
         rates = {rate for _, rate in angle.terms}
         if len(rates) == 1 and (count := 1 / rates.pop()).denominator == 1:
             angle, degrees = angle * count, degrees * count
         found.append((angle, degrees))
     atoms = [*dict.fromkeys(atom for angle, _ in found for atom, _ in angle.terms)]
     is_of_sums = any(len(angle.terms) > 1 for angle, _ in found)
-    if not is_of_sums or len(atoms) != len(found) or any(angle.degrees for angle, _ in found):
+    if not is_of_sums or len(atoms) != len(found):
         return found
     matrix = [[rational(dict(angle.terms).get(atom, 0)) for atom in atoms] for angle, _ in found]
     each = fmpq_mat(matrix).solve(fmpq_mat([[rational(degrees)] for _, degrees in found])).entries()
@@ -235,7 +234,9 @@ class Curvature(Struct, frozen=True):
             for k in range(len(ring.names))
             if all(ring.diff(condition.expr, k).is_zero for condition in alternative)
         ]
-        at_rest = [_turned(ring, pose) for pose in rests([one.expr for one in others])]
+        at_rest = [
+            _turned(ring, pose) for pose in rests([one.expr for one in others if not one.fixes_length])
+        ]
 
         def point_at(values: Values) -> Point | None:
             left = _put(Matrix.column(ring, [other.expr for other in others]), values).entries
@@ -252,7 +253,8 @@ class Curvature(Struct, frozen=True):
 
         for values in product(*turns):
             point = point_at(values)
-            if point is not None and (point.is_open or point.stability is Stability.UNDECIDED):
+            is_open = point is not None and (point.is_open or point.stability is Stability.UNDECIDED)
+            if is_open or (point is not None and not all(one.fixes_coordinate for one in others)):
                 together = (dict.fromkeys((*values, *more)) for more in at_rest)
                 agreeing = (one for one in together if len({pair for pair, _, _ in one}) == len(one))
                 yield from filter(None, (point_at(tuple(one)) for one in agreeing))
@@ -315,7 +317,7 @@ class Curvature(Struct, frozen=True):
         left: list[Expr] = []
         for one in leading:
             sign = signs.beside(*(Bound(before) for before in left if not before.is_number)).open_part(one)
-            if not (sign.is_number and sign.number > 0) and not _is_positive_throughout(sign, signs):
+            if not (sign.is_number and sign.number > 0) and not is_positive_throughout(sign, signs):
                 left.append(sign)
         if not left and not nonzero:
             return Point(values, Stability.STABLE, neutral)
@@ -363,7 +365,7 @@ def _principal(rest: Sequence[int]) -> Iterator[tuple[int, ...]]:
     return (chosen for size in range(1, len(rest) + 1) for chosen in combinations(rest, size))
 
 
-def _is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
+def is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
     """Whether k - m g l cos q > 0 for all q: what is linear in x, or in x², of each sine and cosine x.
 
     It is least where x is 1 or -1, or where x² is 1 or 0.
@@ -504,7 +506,7 @@ def _turned(ring: Ring, pose: Pose) -> Values:
     found = []
     for pair in ring.pairs:
         sine, cosine = (ring.at_pose(ring.generator(place), pose) for place in (pair.sine, pair.cosine))
-        if sine.is_number and cosine.is_number:
+        if sine.is_zero or cosine.is_zero:
             found.append((pair, int(sine.number), int(cosine.number)))
     return tuple(found)
 

@@ -84,10 +84,78 @@ def test_where_a_tangent_is_known_the_sign_of_its_cosine_decides() -> None:
         "equilibria_stability"
     ]
     assert (point["stable_if"], point["unstable_if"]) == (["cos(phi) > 0"], ["cos(phi) < 0"])
-    tilted = ARM.replace("gravity: [0, -g, 0]", "gravity: [g/2, -g*sqrt(3)/2, 0]")
+    tilted = ARM.replace("gravity: [0, -g, 0]", "gravity: [3*g/5, -4*g/5, 0]")
     (points,) = dynsolve.solve(tilted).to_json()["results"]["equilibria_stability"]
     assert [point.get("stable_if") for point in points] == [["cos(q1) > 0"], None]
     assert points[1] == {"q2": "pi", "stability": "unstable"}
+
+
+def test_an_angle_that_is_given_ahead_of_a_coordinate_has_its_quarter_turns() -> None:
+    """Along gravity, 30° from the vertical; and beside a spring that is at rest in both of its angles."""
+    tilted = ARM.replace("gravity: [0, -g, 0]", "gravity: [g/2, -g*sqrt(3)/2, 0]")
+    (points,) = dynsolve.solve(tilted).to_json()["results"]["equilibria_stability"]
+    assert {"q1": "-pi/3", "q2": "0", "stability": "stable"} in points
+    hands = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: a}, {theta: q2* + 30deg, a: b}, {from: 1, theta: q3* - 30deg, a: b}]
+masses: [{mass: m, link: 2, shape: point}, {mass: m, link: 3, shape: point}]
+springs: [{stiffness: k, of: q2 + q3}]
+find: [equilibria]
+"""
+    found = dynsolve.solve(hands)
+    (points,) = found.to_json()["results"]["equilibria_stability"]
+    assert {"q1": "-pi/2", "q2": "-pi/6", "q3": "pi/6", "stability": "stable"} in points
+    assert "For which parameters" not in str(told_of(hands).outcome)
+
+
+def test_a_disk_on_a_slope_in_numbers_is_told_by_the_angle_from_the_vertical() -> None:
+    """By hand: m e sin(φ + 20°) = -(M + m) R sin 20°, and stable where cos(φ + 20°) < 0."""
+    disk = """
+gravity: [g*sin(20deg), -g*cos(20deg), 0]
+model:
+  coordinates: {phi: revolute}
+  bodies: [{mass: M, at: [R*phi, R, 0]}, {mass: m, at: [R*phi + e*sin(phi), R + e*cos(phi), 0]}]
+find: [equilibria]
+"""
+    told = read(disk)
+    assert "m e sin(φ + 20°) + R (M + m) sin(20°) = 0 Note: This has solutions" in told
+    assert "stable where cos(φ + 20°) < 0, not stable where cos(φ + 20°) > 0." in told
+    assert "solutions where m e - R (M + m) sin(20°) ≥ 0. Where the matrix" in told
+
+
+LOADED = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, q: revolute}
+  bodies: [{mass: M, at: [x, 0, 0]}, {mass: m, at: [x + L*sin(q), L*cos(q), 0]}]
+springs: [{stiffness: c, of: x, rest: d}, {energy: "k*q^2/2 + k*(x - d)*q"}, {stiffness: K, of: q}]
+find: [equilibria]
+"""
+
+
+def test_where_a_spring_is_at_rest_is_told_beside_equations_with_parameters() -> None:
+    """By hand: c (x - d) + k q = 0 and (K + k - k²/c) q = m g L sin q, which q = 0 solves."""
+    ((point, _),) = dynsolve.solve(LOADED).to_json()["results"]["equilibria_stability"]
+    assert point["q"] == "0"
+
+
+@pytest.mark.parametrize(
+    ("assumed", "equilibria"),
+    [
+        ("k > m*g*L", ["x - d = 0", "q = 0"]),
+        ("2*k > m*g*L", ["x - d = 0", "m*g*L*sin(q) - k*q = 0"]),
+    ],
+)
+def test_the_only_zero_of_what_grows_everywhere_is_the_equilibrium(
+    assumed: str, equilibria: list[str]
+) -> None:
+    """|sin q| ≤ |q|: m g L sin q = k q at q = 0 alone where k > m g L."""
+    alone = LOADED.replace(', {energy: "k*q^2/2 + k*(x - d)*q"}, {stiffness: K', ", {stiffness: k")
+    problem = alone.replace("find:", f"assume: [{assumed}]\nfind:")
+    assert dynsolve.solve(problem).to_json()["results"]["equilibria"] == [equilibria]
+    assert ("k q - m g L sin(q) grows with q everywhere: it is 0 at q = 0 alone." in read(problem)) == (
+        "q = 0" in equilibria
+    )
 
 
 def test_where_a_sum_of_angles_is_known_stability_is_told_at_its_quarter_turns() -> None:
