@@ -61,12 +61,19 @@ class ChangedDerivation:
         if node not in self._values:
             if not self.reached(node):
                 return self.graph.key(node)
-            route = self.graph.routes(node)[0]
-            found = route.compute(*(self(name) for name in route.inputs))
-            if isinstance(found, Skipped):
-                raise AlgebraError(found.why)
-            self._values[node] = found
-        return self._values[node]
+            self._values[node] = self._computed(node)
+        found = self._values[node]
+        if isinstance(found, Skipped):
+            raise AlgebraError(found.why)
+        return found
+
+    def _computed(self, node: str) -> Any:
+        """The value by the node's first route; why there is none is kept, so that it is not tried again."""
+        route = self.graph.routes(node)[0]
+        try:
+            return route.compute(*map(self, route.inputs))
+        except AlgebraError as error:
+            return Skipped(str(error))
 
 
 class DerivationSlips:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from math import acos, cos, pi, sin
 from typing import Any
 
@@ -517,9 +518,15 @@ WALL = LINE.replace("l2}]", "l}]").replace("tip.y", "tip.x")
 """Links of one length, the tip on an upright line: folded, the row of A_c is 0 where the links are level."""
 
 
+@cache
+def results_of(problem: str) -> dict[str, Any]:
+    """What is asked of in several poses, or by several tests."""
+    return dynsolve.solve(problem).to_json()["results"]
+
+
 def at_pose(problem: str, **pose: float) -> list[bool]:
     """Of each alternative whether its equations hold in a pose, and those of no set that is left out."""
-    results = dynsolve.solve(problem).to_json()["results"]
+    results = results_of(problem)
     values = {
         "l": 0.7,
         "m1": 1.3,
@@ -542,7 +549,7 @@ def at_pose(problem: str, **pose: float) -> list[bool]:
 
 def test_where_a_constraint_holds_nothing_is_no_equilibrium() -> None:
     """By hand: upright g is 0; folded and level A_c is 0, and g is not."""
-    assert dynsolve.solve(WALL).to_json()["results"]["equilibria"] == [
+    assert results_of(WALL)["equilibria"] == [
         ["cos(q2/2) = 0", "cos(q1) = 0"],
         ["cos(q1) = 0", "sin(q2/2) = 0"],
     ]
@@ -666,13 +673,13 @@ def test_a_sum_of_sines_is_taken_apart() -> None:
 )
 def test_equilibria_are_told_where_they_are(problem: str, exist: list[list[str]]) -> None:
     """By hand: one link is upright, and the other reaches the line of the tip from its end."""
-    found = dynsolve.solve(problem).to_json()["results"]["equilibria_exist"]
+    found = results_of(problem)["equilibria_exist"]
     assert [sorted(one) for one in found] == [sorted(one) for one in exist]
 
 
 def test_what_constraints_hold_is_stable_where_the_energy_is_least_along_them() -> None:
     """One link upright, the other level with it: P = g sin q₁ (m₁ l_c1 + m₂ l - m₂ l_c2 l/l₂) on the line."""
-    results = dynsolve.solve(LINE).to_json()["results"]
+    results = results_of(LINE)
     up, down = results["equilibria_stability"][0]
     assert (up["q1"], down["q1"]) == ("pi/2", "-pi/2")
     for m1, lc2 in ((0.2, 1.4), (2.0, 0.3)):
