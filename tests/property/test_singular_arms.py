@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import product
 from random import Random
 from typing import Any
@@ -94,9 +94,11 @@ class Arm:
     def twist(self, q: Array, values: Mapping[str, float]) -> Array:
         """The whole Jacobian, 6×n."""
         axes, points, tip = self.frames(q, values)
+        reach, one, other = tip - points, [1, 2, 0], [2, 0, 1]
+        speeds = axes[:, one] * reach[:, other] - axes[:, other] * reach[:, one]
         columns = [
-            [*np.cross(z, tip - o), *z] if row.kind == "R" else [*z, 0.0, 0.0, 0.0]
-            for row, z, o in zip(self.rows, axes, points, strict=True)
+            [*speed, *z] if row.kind == "R" else [*z, 0.0, 0.0, 0.0]
+            for row, z, speed in zip(self.rows, axes, speeds, strict=True)
         ]
         return np.array(columns).T
 
@@ -244,9 +246,13 @@ class Held:
         for _ in range(16 if self.rank else 0):
             values = self.lengths()
 
-            def lost(x: Array, values: Mapping[str, float] = values) -> Array:
+            @cache  # of the slopes most change V alone
+            def jacobian(q: tuple[float, ...], values: Mapping[str, float] = values) -> Array:
+                return self.arm.jacobian(np.array(q), values)
+
+            def lost(x: Array) -> Array:
                 V = x[n:].reshape(n, k)
-                J = self.arm.jacobian(x[:n], values)
+                J = jacobian(tuple(x[:n]))
                 return np.concatenate([(J @ V).ravel(), (V.T @ V - np.eye(k)).ravel()])
 
             V = np.linalg.qr(self.draw.normal(size=(n, k)))[0]

@@ -16,10 +16,10 @@ from dynsolve.exercise.template import SUFFIXES, Template, TemplateFormat, templ
 from dynsolve.notation.markup import LatexPrinter
 from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import Matrix, Node, Symbol
-from dynsolve.problem.reader import bundled
+from dynsolve.problem.reader import bundled, load
 from dynsolve.quantities.family import FORMED, Kind
 from dynsolve.solution.solution import Solution
-from tests.support import solve_json, solved
+from tests.support import problem_file, solve_json, solved
 
 FORMS = [form for form in SUFFIXES.values() if form is not TemplateFormat.DOCX]
 TOO_LONG = {"puma560", "panda-7r"}
@@ -47,7 +47,7 @@ SUFFIX = {form: suffix for suffix, form in SUFFIXES.items()}
 
 @cache
 def checker(problem: str) -> Checker:
-    return Checker(solved(problem).problem)
+    return Checker(load(problem_file(problem)))
 
 
 def judged(problem: str, page: bytes | str, form: TemplateFormat) -> Report:
@@ -58,7 +58,7 @@ def judged(problem: str, page: bytes | str, form: TemplateFormat) -> Report:
 
 @pytest.mark.parametrize(("name", "form"), CASES)
 def test_what_is_left_empty_is_missing(name: str, form: TemplateFormat) -> None:
-    report = judged(name, template(solved(name).problem, form), form)
+    report = judged(name, template(checker(name).problem, form), form)
     assert {answer.verdict for answer in report.answers} == {Verdict.MISSING}
     assert not report.not_recognized
 
