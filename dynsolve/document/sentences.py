@@ -29,6 +29,16 @@ def say(text: str, /, **values: Value) -> Prose:
     return tuple(_joined(_pieces(text, values)))
 
 
+def paragraph(sentences: Iterable[Prose]) -> Prose:
+    """Sentences after each other; those that are empty leave no trace.
+
+    >>> paragraph([say("One."), (), say("Two.")])
+    ('One. Two.',)
+    """
+    said = [sentence for sentence in sentences if sentence]
+    return tuple(_joined(part for k, one in enumerate(said) for part in ([" "] * (k > 0) + [*one])))
+
+
 def opened(text: str) -> str:
     """Words that begin a sentence: their first letter a capital, every other letter as it is.
 

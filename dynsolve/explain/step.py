@@ -120,7 +120,8 @@ class Step(Struct, frozen=True):
     results that are `listed` stand in one display, those that are `together` side by side;
     a table that is `table_last` stands after the lines;
     `detail` says from which depth on, `normal` which of its parts a worked example has; in a `group` it
-    is one of the steps that are shown as one; `outcome` is said of it where it is not shown itself;
+    is one of the steps that are shown as one; `outcome` is said of it where it is not shown itself, and what
+    its result `holds` under stands beside it in the summary;
     of the steps that are alike, `said` names what `why` tells, and the first alone tells it;
     `figure` is drawn beside it where drawings can be shown.
 
@@ -152,6 +153,7 @@ class Step(Struct, frozen=True):
     normal: Part = TOLD
     group: Group | None = None
     outcome: Prose = ()
+    holds: Prose = ()
     said: str = ""
     also: tuple[str, ...] = ()
     uses: tuple[str, ...] | None = None

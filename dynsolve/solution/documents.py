@@ -437,13 +437,21 @@ def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterat
     Accelerations, which hold with given rates alone, come last.
     """
     at_state = [name for name in asked if holds_at_state(robot, name)]
-    for name in (name for name in asked if name not in at_state):
-        yield from _asked_for(name, robot, steps)
+    yield from _with_conditions([name for name in asked if name not in at_state], robot, steps)
     for with_rates in (False, True):
         names = [name for name in at_state if (name == "qdd") is with_rates]
-        if found := [block for name in names for block in _asked_for(name, robot, steps)]:
+        if found := list(_with_conditions(names, robot, steps)):
             yield at_the_state(robot, names)
             yield from found
+
+
+def _with_conditions(names: Iterable[str], robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
+    """Results that the exercise asks for, and what they hold under: once for those of the same."""
+    holds = {name: step.holds for step in steps for name in (step.id, *step.also)}
+    for condition, found in groupby(names, key=lambda name: holds.get(name, ())):
+        yield from (block for name in found for block in _asked_for(name, robot, steps))
+        if condition:
+            yield Text(condition)
 
 
 def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:

@@ -67,7 +67,14 @@ class Sentence:
         return point.value(shown.parts[-1]).value
 
     def jacobian(self, mechanism: Mechanism, point: Point) -> Any:
-        """The Jacobian that the step shows, at its state; where it shows none, that of the task."""
+        """The Jacobian that the step shows, at its state; where it shows none, that of the task.
+
+        In the summary that of the task at the state.
+        """
+        if self.where.startswith("Summary"):
+            state = mechanism.solution.robot.questions.state.values
+            given = {name: float(point.value(value).value) for name, dots, value in state if not dots}
+            return mechanism.result(mechanism.jacobian, mechanism.point({**point.names, **given}))
         for shown in self.shown():
             if isinstance(shown.parts[-1], tree.Matrix) and plain(shown.parts[0]).startswith("J"):
                 return point.value(shown.parts[-1]).value
@@ -92,9 +99,11 @@ class Sentence:
                 yield from _split(block.parts)
 
     def vectors(self) -> list[tree.Matrix]:
-        """The columns of the space that the step shows."""
-        found = [one.parts[-1] for one in self.shown() if "span" in to_unicode(one.parts[-1])]
-        return [node for node in walk(*found) if isinstance(node, tree.Matrix)]
+        """The columns of the space that is shown last, before this or in the step."""
+        blocks = (*self.step[: self.place], *self.step)
+        found = (one.node for one in reversed(blocks) if isinstance(one, document.Formula))
+        space = next((node for node in found if "span" in to_unicode(node)), tree.ZERO)
+        return [node for node in walk(space) if isinstance(node, tree.Matrix)]
 
     def shown(self) -> Iterator[tree.Relation]:
         """The equations in the displays of the step."""

@@ -15,7 +15,7 @@ from dynsolve.derivation.existence import coordinates_in
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
-from dynsolve.document.sentences import Value, say
+from dynsolve.document.sentences import Value, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms, ProductForms
 from dynsolve.explain.given import in_units
@@ -161,7 +161,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         result=result,
         listed=len(result) > 1,
         notes=(*_of_free(shown, found, where), *notes),
-        outcome=tuple(part for k, note in enumerate(notes) for part in ([" "] * (k > 0) + [*note])),
+        outcome=paragraph(notes),
         uses=None if steady or constrained or found.singular else ("g",),
         detail=Detail.BRIEF,
     )

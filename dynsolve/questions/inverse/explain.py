@@ -13,7 +13,7 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.configurations import Conditions
 from dynsolve.derivation.singular.zeros import never_hold
 from dynsolve.document import Prose, Table
-from dynsolve.document.sentences import opened, say
+from dynsolve.document.sentences import opened, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, RESUMED, Detail, Line, Step
 from dynsolve.explain.step import Part as Shown
@@ -617,8 +617,12 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     tested = names_in(*(side for when in forms.when for one in when for side in one.sides))
     is_tested = not tested.isdisjoint(names)
     is_certain = not is_tested and _exist_together(forms.inverse_formulas, choices.values())
-    there_are = f"there are {'' if is_certain else 'at most '}{count} {several}"
-    there_are = there_are if count > 1 else f"there is one {one}"
+    number = f"there are {'' if is_certain else 'at most '}{count} {several}"
+    number = number if count > 1 else f"there is one {one}"
+    free = [Symbol(name) for name in solving.free]
+    each_free = say(" for each value of {free}", free=listed(free)) if free else ()
+    there_are = say(f"{number}{{each_free}}", each_free=each_free)
+    notes = (*_conditions(forms, task), *_free_coordinates(solving))
     if is_free and choices:
         two = "{q} has two values: {there_are}."
         gives = f"every choice {'gives' if is_certain else 'that exists gives'} a solution"
@@ -626,7 +630,7 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
         chosen = listed([Symbol(step.coordinate) for step in choices.values()])
         together = say(each if len(choices) > 1 else two, q=chosen, there_are=there_are)
     else:
-        together = (f"{opened(there_are)}.",)
+        together = say(f"{opened(number)}{{each_free}}.", each_free=each_free)
     starts = tuple(f"inverse_{what}_{number}" for what, number in _defined(solving))
     table = None if is_free or not choices else _table(forms, choices)
     shown = [node for step in solving.solved for node in forms.inverse_formulas.solutions(step)]
@@ -649,8 +653,8 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
             same=same if is_of_others else "",
         ),
         table=table,
-        notes=(*_conditions(forms, task), *_free_coordinates(solving)),
-        outcome=say(" ".join(said), together=together, needed=listed(needed)) if said else (),
+        notes=notes,
+        outcome=paragraph((say(" ".join(said), together=together, needed=listed(needed)), *notes)),
         normal=NOTED,
         detail=Detail.BRIEF,
         uses=(*(f"inverse_{name}" for name in names), *starts),

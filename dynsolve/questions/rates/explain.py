@@ -10,7 +10,7 @@ from dynsolve.algebra.linear_systems import is_solvable, rank_parts
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
-from dynsolve.document.sentences import Value, say
+from dynsolve.document.sentences import Value, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import of_task
@@ -109,6 +109,7 @@ class _System:
             id=self.name,
             title=title,
             why=(*why, *self._how(), *_state_once(context, self.name)),
+            holds=self._holds(),
             formula=equation(self.x, self._solution()),
             source=spong("4.11"),
             working=tuple(self._working()),
@@ -120,25 +121,38 @@ class _System:
             detail=Detail.BRIEF,
         )
 
-    def _how(self) -> Prose:
+    def _holds(self) -> Prose:
+        """Which of many solutions is meant, or that there is none; where it holds."""
+        meant: Prose = ()
+        if not self.solvable or self.rank < self.columns:
+            meant = say("${b} = 𝐉_r {x}$ {meant}", b=self.b, x=self.x, meant=self._meant())
+        where = of_rates(SetForms(self.context.robot, self.context.values)).prose
+        return paragraph((meant, where))
+
+    def _meant(self) -> Prose:
         """How many solutions it has, and which one is meant."""
         rank, columns = self.rank, self.columns
         least: Value = "of least norm"
         if self.weights is not None:
             least = say("with the least ${x}ᵀ 𝐖 {x}$", x=self.x)
         if self.solvable:
-            text = " has one solution. " if rank == columns else " has many solutions{rank}: {one}. "
+            text = "has one solution." if rank == columns else "has many solutions{rank}: {one}."
         else:
-            text = " has {none}: these come nearest to one, in the sense of least squares. "
+            text = "has {none}: these come nearest to one, in the sense of least squares."
             if rank < columns:
                 text = _MANY_NEAREST
-        how = say(
+        return say(
             text,
             rank=f", the rank being {rank}" if rank < min(self.J.shape) else "",
             one=say("this is the one {least}", least=least),
             none=() if self.solvable else _none(self.context, self.J, self.right),
             normal=formula("𝐉_rᵀ 𝐉_r {x} = 𝐉_rᵀ {b}", x=self.x, b=self.in_product),
         )
+
+    def _how(self) -> Prose:
+        """Which solution is meant, what gives it, and where it holds."""
+        rank, columns = self.rank, self.columns
+        how = say(" {meant} ", meant=self._meant())
         if rank < columns and rank < self.rows:
             how += say("The pseudoinverse {pseudo} gives it. ", pseudo=self._pseudoinverse)
         if (
@@ -147,8 +161,8 @@ class _System:
             and len({q.type for q in self.context.robot.coordinates}) > 1
         ):
             how += _MIXED
-        holds = of_rates(SetForms(self.context.robot, self.context.values)).prose
-        return (*how, *holds, " ") if holds else how
+        where = of_rates(SetForms(self.context.robot, self.context.values)).prose
+        return (*how, *where, " ") if where else how
 
     @property
     def _pseudoinverse(self) -> Node:
@@ -188,7 +202,7 @@ class _System:
 
 _UNSEEN = "Every motion of the joints that the task does not see may be added: ${x}$ with $𝐉_r {x} = 𝟎$."
 _MANY_NEAREST = (
-    " has {none}{rank}; many come nearest to one, in the sense of least squares, those with {normal}: {one}. "
+    "has {none}{rank}; many come nearest to one, in the sense of least squares, those with {normal}: {one}."
 )
 
 
@@ -271,9 +285,10 @@ def _space(context: Context, name: str) -> Step:
         what = "Nothing but $𝟎$ is orthogonal to all possible velocities: no motion is lost."
     return replace(
         found,
-        why=(*say(what), " ", *holds, *([" "] if holds else []), *_state_once(context, name)),
+        why=paragraph((say(what), holds, _state_once(context, name))),
         working=(equation(_J, context.show(J)),),
         result=(equation(letter, spanned),),
+        holds=holds,
         notes=((f"The rank is {rank}, and the dimension of this space {count}.",),),
     )
 

@@ -14,7 +14,7 @@ from dynsolve.derivation.reached import angle_rows
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
 from dynsolve.document.figures import ArmArrow, ArmFigure
-from dynsolve.document.sentences import Value, opened, say
+from dynsolve.document.sentences import Value, opened, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step, not_derived
 from dynsolve.explain.working.identities import SILENT
@@ -148,7 +148,7 @@ def _alternatives(forms: SingularForms, found: SingularSet, J: Node) -> Step:
         why=why,
         detail=Detail.BRIEF,
         notes=special,
-        outcome=tuple(part for sentence in (why, *special) for part in (*sentence, " "))[:-1],
+        outcome=paragraph((why, *special)),
         hint=("A product is 0 where one of its factors is. Constant lengths are not 0.",),
         hint_title=_TITLE,
     )
@@ -169,7 +169,7 @@ def _alternatives(forms: SingularForms, found: SingularSet, J: Node) -> Step:
         why=(one if len(cases) == 1 else several,),
         result=tuple(map(vanishing, cases)),
         notes=(*exist, *special),
-        outcome=tuple(part for note in exist for part in (*note, " "))[:-1],
+        outcome=paragraph(exist),
         uses=("singular_minors",),
     )
 

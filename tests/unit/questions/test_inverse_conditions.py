@@ -6,7 +6,7 @@ import pytest
 
 import dynsolve
 from dynsolve import solve
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Number, Symbol, equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.render.files import Format
@@ -44,6 +44,14 @@ def test_the_conditions(arm: str, task: str, conditions: list[str]) -> None:
     for branch in branches:
         found = branch.get("when", [])
         assert sorted(found) == sorted(conditions)
+
+
+def test_the_summary_has_the_conditions_and_what_is_free() -> None:
+    slide = "base: Rx(90deg)\ndh: [{theta: 90deg, d: s1*, alpha: 90deg}, {theta: phi*, a: b}]"
+    solution = solve(text(slide, "task: [tip.x, tip.z]\nreach: [X, Z]"))
+    shown = " ".join(report(solution, Format.TEXT, detail=Detail.RESULTS).decode().split())
+    assert "there are 2 solutions for each value of s₁. They hold where X = 0 alone" in shown
+    assert "s₁ does not change the task, and may be anything." in shown
 
 
 def test_a_condition_that_does_not_hold_is_the_reason() -> None:

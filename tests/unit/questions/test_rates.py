@@ -12,6 +12,7 @@ from dynsolve.answers.reading.files import FileReader
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.step import Detail
 from dynsolve.notation.tree import Matrix, Negative, Node
 from dynsolve.problem import read_problem
 from dynsolve.questions.rates.check import rate_names, verify_rates
@@ -152,6 +153,23 @@ def test_it_is_said_for_which_configurations_and_velocities(state: str, velocity
     shown = " ".join(report(dynsolve.solve(text), Format.TEXT).decode().split())
     assert words in shown
     assert ("no motion is lost. All this holds" in shown) == ("All this" in words)
+
+
+@pytest.mark.parametrize(
+    ("arm", "told", "conditions"),
+    [
+        ("square", "All this holds where s₂ ≠ 0.", 1),
+        ("redundant", "has many solutions: this is the one of least norm. All this holds where the rank", 2),
+        ("weighted", "has many solutions: this is the one with the least 𝐪̇ᵀ 𝐖 𝐪̇. All this", 2),
+        ("too few joints", "these come nearest to one, in the sense of least squares.", 0),
+    ],
+)
+def test_the_summary_says_under_what_results_hold(arm: str, told: str, conditions: int) -> None:
+    """Once for those of the same condition."""
+    solution = dynsolve.solve(ROBOTS[arm] + "find: [qd, nullspace, lost]\n")
+    shown = report(solution, Format.TEXT, detail=Detail.RESULTS).decode()
+    summary = " ".join(shown.partition("Summary")[2].split())
+    assert told in summary and summary.count("All this holds") == conditions
 
 
 def test_accelerations_at_a_rate_that_may_be_0_are_not_said_to_have_none() -> None:
