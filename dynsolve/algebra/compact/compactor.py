@@ -175,9 +175,12 @@ class Compactor:
             return expr, beside
         terms = power.poly.to_dict()
         first = min(terms, key=lambda exponents: sum(exponents[i] for i in self._moving))
+        needed = [(i, e) for i, e in enumerate(first) if e]
         for exponents, f in expr.poly.to_dict().items():
+            if any(exponents[i] < e for i, e in needed):
+                continue
             quotient = [e - own for e, own in zip(exponents, first, strict=True)]
-            if min(quotient) < 0 or any(quotient[i] for i in self._apart):
+            if any(quotient[i] for i in self._apart):
                 continue
             size = Expr(self.ring, self.ring.ctx.from_dict({tuple(quotient): f / terms[first]}))
             product = size * power
