@@ -42,27 +42,41 @@ def conditions(values: Sequence[Expr], signs: ParameterSigns) -> tuple[Bound, ..
     """What the parameters must satisfy for these to be 0 somewhere; None where they never are.
 
     Each is looked at apart, but for what fixes an angle at quarter turns; nothing is said where the choice
-    of these leaves several conditions of which one is enough.  The square of a length is not negative.
+    of these leaves several conditions of which one is enough.  The discriminant of a
+    quadratic in a length is not negative.
     """
     known = [swings for value in values if (swings := _swings(value)) is not None]
     found = [bounds for _, bounds in _choices(known, signs)]
-    squares = (square for value in values if (square := square_of(value)) is not None)
-    lengths = _bounds([-(factor * rest) for _, factor, rest in squares], signs)
+    quadratics = filter(None, map(quadratic_of, values))
+    lengths = _bounds([discriminant(*parts) for _, *parts in quadratics], signs)
     return (*_weakest(found, signs), *lengths) if found and lengths is not None else None
 
 
-def square_of(zero: Expr) -> tuple[int, Expr, Expr] | None:
-    """(generator d, m, n) of m d² + n with a length d, and m and n of parameters alone; None of any other."""
+def quadratic_of(zero: Expr) -> tuple[int, Expr, Expr, Expr] | None:
+    """(generator d, a, b, c) of a d² + b d + c with a length d, the others of parameters alone; else None."""
     ring, degrees = zero.ring, zero.poly.degrees()
     for name, kind in ring.coordinates:
         index = ring.symbol_indices[name, 0]
         if kind == "prismatic" and degrees[index] == 2:
-            d = ring.generator(index)
-            factor = ring.diff(ring.diff(zero, ring.names.index(name)), ring.names.index(name)) / 2
-            rest = zero - factor * d * d
-            if not any(map(ring.depends_on_coordinates, (factor, rest))):
-                return index, factor, rest
+            d, k = ring.generator(index), ring.names.index(name)
+            slope = ring.diff(zero, k)
+            a = ring.diff(slope, k) / 2
+            b = slope - 2 * a * d
+            c = zero - a * d * d - b * d
+            if not any(map(ring.depends_on_coordinates, (a, b, c))):
+                return index, a, b, c
     return None
+
+
+def discriminant(a: Expr, b: Expr, c: Expr) -> Expr:
+    """What is not negative where a d² + b d + c is 0 somewhere."""
+    return b * b - 4 * a * c
+
+
+def square_of(zero: Expr) -> tuple[int, Expr, Expr] | None:
+    """(generator d, m, n) of m d² + n with a length d, and m and n of parameters alone; None of any other."""
+    found = quadratic_of(zero)
+    return (found[0], found[1], found[3]) if found and found[2].is_zero else None
 
 
 def is_seen(values: Sequence[Expr], signs: ParameterSigns) -> bool:
@@ -76,7 +90,7 @@ def is_seen(values: Sequence[Expr], signs: ParameterSigns) -> bool:
     return all(
         _swing_apart(group, signs)
         or any(True for _ in zeros_at_quarters(group))
-        or (len(group) == 1 and (square_of(group[0]) is not None or _changes_sign(group[0], signs)))
+        or (len(group) == 1 and (quadratic_of(group[0]) is not None or _changes_sign(group[0], signs)))
         for group in map(partial(_without_solved, signs=signs), _apart(values))
     )
 

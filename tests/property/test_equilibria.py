@@ -25,7 +25,7 @@ from tests.support import solve_json
 Array = npt.NDArray[np.float64]
 
 ENERGIES = {
-    "PP": "a*x*y, b*x^2/2, c*y^2/2, -d*x, a*x, -e*y, -b*x^4, d*y^4, (a - b)*x*y, x^2, -a*y^2/2",
+    "PP": "a*x*y, b*x^2/2, c*y^2/2, -d*x, a*x, -e*y, -b*x^4, d*y^4, (a - b)*x*y, x^2, -a*y^2/2, c*x^3/3",
     "RP": "a*cos(x), -b*cos(x), a*y*sin(x), c*y^2/2, -d*y, (a - b)*y*cos(x), -y^2, d*cos(x)^2, e*x^2/2",
     "RR": "a*cos(x), -b*cos(x), c*cos(y), -d*cos(x + y), a*cos(x - y), b*sin(x)*sin(y), (a - b)*cos(y), "
     "-e*cos(x + pi/6), c*x^2/2",
@@ -174,6 +174,8 @@ SPRINGS = [
     Mechanism("RR", ("-c*cos(x - y)",)),
     Mechanism("RP", ("a*cos(x)", "c*x^2/2", "-d*y", "b*y^2/2")),
     Mechanism("R", ("cos(x)", "x^2")),
+    Mechanism("P", ("a*x^3/3", "b*x^2/2", "c*x")),
+    Mechanism("PP", ("a*x^4/4", "-b*x^3/3", "c*x^2/2", "d*x*y", "e*y^2")),
     Mechanism("RR", ("a*cos(x)", "-b*cos(x + y + pi/6)", "c*(y + pi/6)^2/2")),
     Mechanism("RRR", ("-a*sin(x + y)", "b*cos(x + y)*cos(z)", "-c*cos(z)")),
 ]

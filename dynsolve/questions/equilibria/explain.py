@@ -11,7 +11,7 @@ from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.algebra.matrix import Matrix, determinant, vstack
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
-from dynsolve.derivation.existence import coordinates_in
+from dynsolve.derivation.existence import coordinates_in, quadratic_of
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
@@ -340,6 +340,8 @@ def _never(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
             where, what = vanishing(tuple(map(shown.condition, held))), shown.vanishing(value)
             what = shown.condition(Condition(value)) if what == ONE else what
             yield say("Where {where}, {what} is not 0.", where=where, what=what)
+        elif quadratic_of(value):
+            yield say("{what} is not 0: its discriminant is negative.", what=shown.vanishing(value))
 
 
 def _arbitrary(robot: Robot, cases: Sequence[tuple[Node, ...]]) -> Iterator[Prose]:
@@ -467,7 +469,7 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
     else:
         curvature = context.show(linearization.curvature(robot, forces))
         working = (*working, *([equation(second, curvature)] if is_small(curvature) else []))
-    sentences = [*(_verdict(context, shown, *one) for one in told), *([more] if more else [])]
+    sentences = [*(_verdict(context, shown, found, *one) for one in told), *([more] if more else [])]
     if _held_by_friction(robot) and any(point.stability is not Stability.STABLE for point, _ in told):
         sentences.append((_NOT_HELD,))
     return Step(
@@ -549,19 +551,27 @@ def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Pros
     return (among, " at ", side_by_side(at)) if at else (among,)
 
 
-def _verdict(context: Context, shown: EquilibriaForms, point: Point, place: Prose) -> Prose:
+def _verdict(
+    context: Context, shown: EquilibriaForms, found: Equilibria, point: Point, place: Prose
+) -> Prose:
     """At q₁ = -90°, q₂ = 0: stable."""
     said = _VERDICTS[point.stability]
     needed = [*map(shown.inequality, point.conditions), *(shown.comparison(f, "≠") for f in point.nonzero)]
-    if point.is_open:
-        said = ("not told here",)
-    elif needed:
+    if point.is_open and not point.falls:
+        here = next(points for points in found.points if point in points)
+        is_beside = any(other.is_told for other in here if other is not point)
+        if is_beside and len(found.points) == 1:
+            return ("How stable the others are is not told here.",)
+        return say(f"{{place}} the stability{' of the others' * is_beside} is not told here.", place=place)
+    if needed and not point.is_open:
         verdict: Prose = said if point.stability is Stability.UNSTABLE else ("stable",)
         said = say("{verdict} where {all}", verdict=verdict, all=listed(needed))
     if point.falls:
         fails = [shown.comparison(bound.value, "<") for bound in point.conditions]
         one: Prose = ("one of these inequalities is reversed",) if len(fails) > 1 else (fails[0],)
-        said = say("{stable}, not stable where {one}", stable=said, one=one)
+        said = say(
+            "{stable}, not stable where {one}{root}", stable=said, one=one, root=_root(shown, found, point)
+        )
         if point.is_open:
             said = say("not stable where {fails}", fails=listed(fails, "or"))
     robot = context.robot
@@ -579,6 +589,16 @@ def _verdict(context: Context, shown: EquilibriaForms, point: Point, place: Pros
     if point.drifts:
         along = (", but for motions along the equilibria, in which nothing changes",)
     return say("{place}: {said}{along}.", place=place, said=said, along=along)
+
+
+def _root(shown: EquilibriaForms, found: Equilibria, point: Point) -> str:
+    """At which root of a quadratic the only condition of a point holds."""
+    cases = (case for case, points in zip(found.alternatives, found.points, strict=True) if point in points)
+    values = [bound.value for bound in point.conditions]
+    for one in (one for case in cases for one in case if len(values) == 1):
+        if sign := shown.positive_root(one, values[0]):
+            return f", that is with {'+ and with -' if sign > 0 else '- and with +'}"
+    return ""
 
 
 _AT_ANY = ("along which nothing changes", "with any value of which it is an equilibrium")

@@ -8,14 +8,15 @@ from math import gcd, lcm
 
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.factors import is_positive, ratio
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import turn_of
-from dynsolve.derivation.existence import square_of
+from dynsolve.derivation.existence import discriminant, quadratic_of, square_of
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.sets import Alternative
 from dynsolve.derivation.singular.zeros import Condition
-from dynsolve.notation.build import cost
+from dynsolve.notation.build import cost, times, total
 from dynsolve.notation.tree import Function, Node, Number, Power, Quotient, Relation, Symbol, equation
 from dynsolve.questions.equilibria.solving import Equilibria, SpecialCase, assumed_signs
 from dynsolve.questions.equilibria.stability import by_coordinates, quarter_turns, turned
@@ -65,6 +66,7 @@ class EquilibriaForms(SetForms):
             or self._tangent(one)
             or self._length(one)
             or self._square(one)
+            or self._quadratic(one)
             or equation(value, Number(0))
             for one, value in zip(case, zeros, strict=True)
         ]
@@ -89,20 +91,23 @@ class EquilibriaForms(SetForms):
     def _length(self, condition: Condition) -> Node | None:
         """x = b/a where a x = b, and a is a parameter that is not 0; of an angle where b is one, too.
 
-        Nothing of x = 0.
+        So also q₂ = n q₁ where no sine stands beside.  Nothing of x = 0.
         """
         ring, expr = condition.expr.ring, condition.expr
+        is_linear = all(ring.generators[i].kind == "symbol" for i in expr.used)
+        found = []
         for q in self.robot.coordinates:
             factor = ring.coefficient(expr, q.name, 0)
             rest = expr - factor * ring.symbol(q.name)
-            is_alone = q.type is JointType.PRISMATIC or not ring.depends_on_coordinates(rest)
+            is_alone = q.type is JointType.PRISMATIC or is_linear or not ring.depends_on_coordinates(rest)
             if (
                 is_alone
                 and ring.coefficient(rest, q.name, 0).is_zero
                 and not (factor.is_zero or rest.is_zero or ring.depends_on_coordinates(factor))
             ):
-                return self._quotient(Symbol(q.name), -rest, factor)
-        return None
+                found.append((q.name, rest, factor))
+        ways = sorted(found, key=lambda one: not one[2].is_number)
+        return next((self._quotient(Symbol(name), -rest, factor) for name, rest, factor in ways), None)
 
     def _square(self, condition: Condition) -> Node | None:
         """x² = n/m where m x² = n, and m is not 0."""
@@ -113,23 +118,89 @@ class EquilibriaForms(SetForms):
         name = condition.expr.ring.generators[index].name
         return self._quotient(Power(Symbol(name), Number(2)), -rest, factor)
 
+    def _quadratic(self, condition: Condition) -> Node | None:
+        """y = -b/(2a) ± √(b² - 4a c)/(2a) where a y² + b y + c = 0, and a is not 0."""
+        found = self.roots_of(condition)
+        if found is None:
+            return None
+        index, a, b, c = found
+        ring = a.ring
+        halves = 2 if all(int(number.p) % 2 == 0 for number in b.poly.coeffs()) else 1
+        below = a * Fraction(2, halves)
+        middle = self._quotient(Symbol(ring.generators[index].name), -b / halves, below)
+        form = self.compactor(ring).form
+        root = Function("sqrt", form(discriminant(a, b, c) / halves**2))
+        size: Node = root if below == ring.one else Quotient(root, form(below))
+        assert isinstance(middle, Relation)
+        return Relation((*middle.parts, size), ("=", "±"))
+
+    def roots_of(self, condition: Condition) -> tuple[int, Expr, Expr, Expr] | None:
+        """(generator y, a, b, c) of a y² + b y + c = 0 with a > 0, with whole numbers; None of any other."""
+        found = quadratic_of(condition.expr)
+        if found is None:
+            return None
+        index, *parts = found
+        signs = assumed_signs(self.robot, Transfer(self.robot.ring, condition.expr.ring))
+        whole = self._denominator(*parts)
+        for sign in (1, -1):
+            if signs.is_positive(parts[0] * sign):
+                a, b, c = (part * (sign * whole) for part in parts)
+                return index, a, b, c
+        return None
+
+    def positive_root(self, condition: Condition, value: Expr) -> int:
+        """1 where m y + n is positive at the greater root y, negative at the other; -1; 0 if unknown."""
+        found = self.roots_of(condition)
+        if found is None:
+            return 0
+        index, a, b, c = found
+        ring = a.ring
+        y = ring.generator(index)
+        m = ring.coefficient(value, ring.generators[index].name, 0)
+        n = value - m * y
+        if any(map(ring.depends_on_coordinates, (m, n))):
+            return 0
+        signs = assumed_signs(self.robot, Transfer(self.robot.ring, ring)).beside(
+            Bound(discriminant(a, b, c))
+        )
+        product = a * n * n - m * n * b + m * m * c  # of both values, times a
+        between = [sign for sign in (1, -1) if signs.is_positive(m * sign) and signs.is_positive(-product)]
+        return next(iter(between), 0)
+
     def _quotient(self, letter: Node, above: Expr, below: Expr) -> Node | None:
-        """letter = above/below, cancelled; nothing where the lower part may be 0, and that is not told."""
+        """letter = s₀ - g M/k, cancelled; nothing where the lower part may be 0, and that is not told."""
         ring, form = above.ring, self.compactor(above.ring).form
         for index, inverted in ring.inverses.items():
             highest = max(int(part.poly.degrees()[index]) for part in (above, below))
             above, below = (part * Expr(ring, inverted) ** max(highest, 0) for part in (above, below))
         signs = assumed_signs(self.robot, Transfer(self.robot.ring, ring))
         sign = next((sign for sign in (1, -1) if signs.is_positive(below * sign)), 0)
-        if not sign and {below, -below} & self._nonzero:
+        if not sign and any(below == one * ratio(below, one) for one in self._nonzero):
             numbers = [*above.poly.coeffs(), *below.poly.coeffs()]
             sign = 1 if 2 * sum(number > 0 for number in numbers) >= len(numbers) else -1
         common = above.poly.gcd(below.poly)
         parts = [Expr(ring, part.poly / common) for part in (above, below)]
         numbers = [number for part in parts for number in part.poly.coeffs()]
         whole = Fraction(lcm(*(int(n.q) for n in numbers)), gcd(*(int(n.p) for n in numbers)))
-        upper, lower = (form(part * (whole * sign)) for part in parts)
-        return equation(letter, upper if lower == Number(1) else Quotient(upper, lower)) if sign else None
+        if not sign:
+            return None
+        above, below = (part * (whole * sign) for part in parts)
+        upper, lower = form(above), form(below)
+        if lower == Number(1):
+            return equation(letter, upper)
+        shortest: Node = Quotient(upper, lower)
+        apart, rest = (Expr(ring, part) for part in divmod(above.poly, below.poly))
+        if not (apart.is_zero or ring.depends_on_coordinates(above)):
+            shortest = min(shortest, total([form(apart), self._over(rest, below)]), key=cost)
+        return equation(letter, shortest)
+
+    def _over(self, above: Expr, below: Expr) -> Node:
+        """±above/below, cancelled."""
+        common = above.poly.gcd(below.poly)
+        sign = -1 if all(number < 0 for number in above.poly.coeffs()) else 1
+        form = self.compactor(above.ring).form
+        upper, lower = (form(Expr(above.ring, part.poly / common)) for part in (above * sign, below))
+        return times(sign, [(upper, 1), (lower, -1)])
 
     def _tangent(self, condition: Condition) -> Node | None:
         """tan θ = b/a where a sin θ = b cos θ, and a is not 0."""

@@ -124,6 +124,59 @@ find: [equilibria]
     assert "solutions where m e - R (M + m) sin(20°) ≥ 0. Where the matrix" in told
 
 
+QUARTIC = """
+gravity: none
+model: {coordinates: {x: prismatic}, bodies: [{mass: m, at: [x, 0, 0]}]}
+springs: [{energy: a*x^4/4 + b*x^2/2 - c*x^3/3}]
+find: [equilibria]
+"""
+
+
+def test_a_quadratic_is_solved_and_each_root_is_judged() -> None:
+    """By hand: x = 0 and the roots of a x² - c x + b, of which the greater is a minimum again."""
+    told = read(QUARTIC)
+    assert "x = c/(2a) ± √(c² - 4a b)/(2a)" in told
+    assert "Case 2 has solutions where c² ≥ 4a b." in told
+    apart = "In case 2: stable where c x > 2b, not stable where c x < 2b, that is with + and with -."
+    assert apart in told
+
+
+def test_a_case_that_is_assumed_not_to_be_there_is_none() -> None:
+    assumed = QUARTIC.replace("find:", "assume: [4*a*b > c^2]\nfind:")
+    assert dynsolve.solve(assumed).to_json()["results"]["equilibria"] == [["x = 0"]]
+    assert "a x² + b - c x is not 0: its discriminant is negative." in read(assumed)
+
+
+def test_the_greater_root_of_a_falling_quadratic_is_not_stable() -> None:
+    """V = c y + b y²/2 - a y³/3: V'' = b - 2a y, which is negative at the greater root."""
+    falling = QUARTIC.replace("a*x^4/4 + b*x^2/2 - c*x^3/3", "c*x + b*x^2/2 - a*x^3/3")
+    told = read(falling)
+    assert "x = b/(2a) ± √(4c a + b²)/(2a)" in told
+    assert "stable where b > 2a x, not stable where b < 2a x, that is with - and with +." in told
+
+
+def test_what_has_a_coefficient_of_its_own_is_solved_for() -> None:
+    """s (k - m W²) = k l₀ + m g of a bead that falls along a turning rod; q₂ = n q₁ of two gears."""
+    bead = """
+gravity: [-g, 0, 0]
+model: {coordinates: {s: prismatic}, D: [[m]], P: "k*(s - l0)^2/2 - 3*m*W^2*s^2/8 - m*g*s/2"}
+find: [equilibria]
+"""
+    assert "s = 2(g m + 2k l₀)/(4k - 3m W²)" in read(bead)
+    geared = ARM.replace("find:", "constraints: [q2 - n*q1]\nfind:")
+    assert "q₂ = n q₁" in read(geared)
+
+
+def test_a_length_at_rest_is_a_sum() -> None:
+    hung = """
+gravity: [0, -g, 0]
+model: {coordinates: {s: prismatic}, bodies: [{mass: M, at: [0, s, 0]}, {mass: m, at: [0, s, 0]}]}
+springs: [{stiffness: k, of: s, rest: s0}]
+find: [equilibria]
+"""
+    assert "s = s₀ - g (M + m)/k" in read(hung)
+
+
 LOADED = """
 gravity: [0, -g, 0]
 model:
@@ -924,7 +977,7 @@ springs: [{stiffness: k, of: r, rest: r0}]
 find: [equilibria]
 """
     (row,) = told_of(text).result
-    assert to_unicode(row) == "r = (k r₀ - m g cos(b))/k"
+    assert to_unicode(row) == "r = r₀ - m g cos(b)/k"
 
 
 def test_a_case_that_is_not_stable_inside_its_bounds_is_said_to_be_that() -> None:
