@@ -13,6 +13,7 @@ from fractions import Fraction
 from functools import cached_property, partial
 from math import lcm, prod
 
+from flint import fmpq_mpoly
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import names_of
@@ -462,9 +463,14 @@ class ProductForms:
                 numerator, divisor = numerator * base, divisor * base
         if self._is_negative(divisor):  # of a determinant, a₁ a₃ - a₂² c², and not its opposite
             numerator, divisor = -numerator, -divisor
-        parts = divmod(numerator.poly, divisor.poly)
-        whole, rest = (Expr(self.ring, self.ring.reduce(part)) for part in parts)
-        if len(whole) + len(rest) < len(numerator) and not rest.is_zero:
+        choices = (divmod(numerator.poly, divisor.poly), _exactly_divided(numerator, divisor))
+        splits = [[Expr(self.ring, self.ring.reduce(part)) for part in parts] for parts in choices]
+        whole, rest = min(splits, key=lambda parts: (_has_halves(*parts), sum(map(len, parts))))
+        if (
+            _has_halves(whole, rest) <= _has_halves(numerator)
+            and len(whole) + len(rest) < len(numerator)
+            and not rest.is_zero
+        ):
             return total([self.form(whole), self._quotient(RationalExpr(rest, divisor))])
         below, under = self._factors(divisor, apart=True)
 
@@ -534,6 +540,25 @@ class ProductForms:
             expr = -expr
         whole = expr * lcm(*(int(c.q) for c in expr.poly.coeffs()))
         return expr if self.decimal and _has_long(whole) else whole
+
+
+def _exactly_divided(numerator: Expr, divisor: Expr) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    """(whole, rest): of m (m L³ + J L) θ̇² + J f over m L² + J the factor of θ̇² is divided, and J f left."""
+    inside, zero = set(divisor.used), numerator.ring.zero.poly
+    factors: dict[tuple[int, ...], fmpq_mpoly] = {}
+    for exponents, number in numerator.poly.terms():
+        beside = tuple(0 if k in inside else int(e) for k, e in enumerate(exponents))
+        factors[beside] = factors.get(beside, zero) + zero.context().from_dict({exponents: number})
+    whole, rest = zero, zero
+    for factor in factors.values():
+        quotient, left = divmod(factor, divisor.poly)
+        whole, rest = (whole, rest + factor) if left else (whole + quotient, rest)
+    return whole, rest
+
+
+def _has_halves(*exprs: Expr) -> bool:
+    """Whether a coefficient is a fraction."""
+    return any(factor.q != 1 for expr in exprs for factor in expr.poly.coeffs())
 
 
 def _has_long(expr: Expr) -> bool:
