@@ -2,6 +2,7 @@
 
 solving        where forces are 0
 stability      how stable that is
+numeric        all the zeros of an equation in numbers
 multipliers    what constraints hold, and how the energy is curved along what they leave free
 balance        conditions on the parameters for gravity to move nothing
 linearization  the motion near an equilibrium; equilibria of steady motion

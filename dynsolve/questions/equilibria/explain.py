@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from math import isclose
 
 from msgspec.structs import replace
 
@@ -11,7 +13,7 @@ from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.algebra.matrix import Matrix, determinant, vstack
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
-from dynsolve.derivation.existence import coordinates_in, quadratic_of
+from dynsolve.derivation.existence import coordinates_in, quadratic_of, zeros_at_quarters
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
@@ -47,6 +49,7 @@ from dynsolve.questions.equilibria import linearization
 from dynsolve.questions.equilibria.balance import exclude_each_other, is_impossible
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linearization import may_be_held, steady_energy, steady_forces
+from dynsolve.questions.equilibria.numeric import all_zeros
 from dynsolve.questions.equilibria.solving import (
     Equilibria,
     SpecialCase,
@@ -108,6 +111,9 @@ _AT_REST = (
     "In an equilibrium rates and accelerations are 0{idle}: of the equations of motion {left} is left. "
     "{loads}"
 )
+MOST_ZEROS = 8
+"""More zeros of an equation in numbers are not told."""
+
 _COULOMB = "Coulomb friction is left out: wherever it holds, there is rest, too."
 _NOT_HELD = "All this is without Coulomb friction, which can hold what is not stable."
 _CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
@@ -239,6 +245,8 @@ def _of_cases(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterat
     else:
         for value, zero in found.only:
             yield _only(shown, value, zero)
+        for value in dict.fromkeys(one.expr for case in found.alternatives for one in case):
+            yield from _in_numbers(shown, value)
         yield from shown.existence("equilibria", found.exist, found.is_seen)
         yield from _unseen(found)
         if where:
@@ -252,6 +260,20 @@ def _only(shown: EquilibriaForms, value: Expr, zero: Expr) -> Prose:
     growing = shown.compactor(value.ring).form(value)
     text = "{growing} grows with {name} everywhere: it is 0 at {at} alone."
     return say(text, growing=growing, name=Symbol(name), at=at)
+
+
+def _in_numbers(shown: EquilibriaForms, value: Expr) -> Iterator[Prose]:
+    """2 sin(q) - q is 0 at q = 0, q ≈ 108.6° and q ≈ -108.6° alone."""
+    if (found := all_zeros(value)) is None or len(found[1]) > MOST_ZEROS:
+        return
+    name, zeros = found
+    exact = {float(pose.get(name, 0)) for pose in zeros_at_quarters([value])}
+    at: list[Node] = []
+    for size in sorted(zeros, key=lambda size: (round(abs(size), 6), size < 0)):
+        is_exact = any(isclose(size, other, abs_tol=1e-9) for other in exact)
+        shown_size = Fraction(round(size)) if is_exact else Fraction(f"{size:.1f}")
+        at.append(Relation((Symbol(name), angle_node(Angle((), shown_size))), ("=" if is_exact else "≈",)))
+    yield say("{zero} is 0 at {at} alone.", zero=shown.vanishing(value), at=listed(at))
 
 
 def _besides(context: Context, shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:

@@ -124,6 +124,23 @@ find: [equilibria]
     assert "solutions where m e - R (M + m) sin(20°) ≥ 0. Where the matrix" in told
 
 
+def test_all_equilibria_of_an_angle_in_numbers_are_told() -> None:
+    """By Newton's method: sin q = q/2 at q = 0 and q = ±1.89549; and with a spring at rest at 40°."""
+    soft = """
+gravity: [0, -10, 0]
+model: {coordinates: {q: revolute}, bodies: [{mass: 2, at: [sin(q)/2, cos(q)/2, 0]}]}
+springs: [{stiffness: 5, of: q}]
+find: [equilibria]
+"""
+    assert "2sin(q) - q is 0 at q = 0, q ≈ 108.6° and q ≈ -108.6° alone." in read(soft)
+    (found,) = re.findall(r"is 0 at (.*) alone", read(soft.replace("of: q", "of: q, rest: 40deg")))[:1]
+    for angle in re.findall(r"-?[0-9.]+(?=°)", found):
+        q = float(angle) * pi / 180
+        assert abs(5 * (q - 40 * pi / 180) - 10 * sin(q)) < 0.02
+    assert "alone" not in read(soft.replace("stiffness: 5", "stiffness: k"))
+    assert "alone" not in read(soft.replace("stiffness: 5", "stiffness: 1/10"))  # at too many
+
+
 QUARTIC = """
 gravity: none
 model: {coordinates: {x: prismatic}, bodies: [{mass: m, at: [x, 0, 0]}]}
