@@ -11,6 +11,7 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import Any
 
+from flint import fmpq_mpoly
 from msgspec import Struct
 
 from dynsolve.algebra.lowest_terms import lowest_terms
@@ -146,6 +147,20 @@ def cancelled(value: RationalExpr) -> RationalExpr:
         return min(plain, whole, key=_length)
     lowest = _without_common(RationalExpr(*found))
     return min(_with_inverses(lowest, like=plain), lowest, key=_length)
+
+
+def exactly_divided(numerator: Expr, divisor: Expr) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    """(whole, rest): of m (m L³ + J L) θ̇² + J f over m L² + J the factor of θ̇² is divided, and J f left."""
+    inside, zero = set(divisor.used), numerator.ring.zero.poly
+    factors: dict[tuple[int, ...], fmpq_mpoly] = {}
+    for exponents, number in numerator.poly.terms():
+        beside = tuple(0 if k in inside else int(e) for k, e in enumerate(exponents))
+        factors[beside] = factors.get(beside, zero) + zero.context().from_dict({exponents: number})
+    whole, rest = zero, zero
+    for factor in factors.values():
+        quotient, left = divmod(factor, divisor.poly)
+        whole, rest = (whole, rest + factor) if left else (whole + quotient, rest)
+    return whole, rest
 
 
 def with_integers(value: RationalExpr) -> RationalExpr:

@@ -8,20 +8,21 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import cached_property, partial
-from math import lcm, prod
+from functools import cached_property, partial, reduce
+from math import comb, lcm, prod
+from operator import and_
 
-from flint import fmpq_mpoly
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.factors import trig_factors
-from dynsolve.algebra.fraction import RationalExpr, clear_inverses, is_zero, with_integers
+from dynsolve.algebra.fraction import RationalExpr, clear_inverses, exactly_divided, is_zero, with_integers
 from dynsolve.algebra.linear_systems import FractionMatrix
-from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.matrix import Matrix, minors
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.sampling import Transfer
@@ -122,10 +123,10 @@ class Forms:
 
     def of(self, value: Expr | RationalExpr | Matrix | FractionMatrix) -> Node:
         """The compact tree of any value of this robot's ring."""
-        return self._products.of(value)
+        return self.products.of(value)
 
     @cached_property
-    def _products(self) -> ProductForms:
+    def products(self) -> ProductForms:
         """Products and quotients of this robot's ring."""
         return ProductForms(self.compactor, decimal=self._decimal)
 
@@ -153,7 +154,8 @@ class Forms:
         if isinstance(value, RationalExpr | FractionMatrix):
             return self.of(value)
         if name == "det":
-            return self._products.form(value)
+            (jacobian,) = self.values.rules[name].inputs
+            return self.products.determinant(value, self.values[jacobian])
         entries = value.entries if isinstance(value, Matrix) else (value,)
         quantity = quantities(self.robot).of_rule(name)
         is_regressor = quantity is not None and quantity.family.stage is Stage.PARAMETERS
@@ -412,6 +414,9 @@ def _turned_by(robot: Robot, link: int) -> frozenset[str]:
 
 # -- compact forms of products and quotients: a determinant in its factors, fractions --------------
 
+MOST_MINORS = 10
+"""The squares of more are not added up."""
+
 LONG_FACTORS = 150
 """Expressions of more terms are not taken apart: over roots that takes minutes."""
 
@@ -440,6 +445,27 @@ class ProductForms:
         coefficient, factors = self._factors(expr)
         return times(coefficient, factors, decimal=self.decimal)
 
+    def determinant(self, value: Expr, jacobian: Matrix) -> Node:
+        """det J, or det(J Jᵀ), which is the sum of the squares of the minors, as that where it is shorter."""
+        found, (rows, columns) = self.form(value), jacobian.shape
+        is_long = len(value) > LONG_FACTORS or comb(max(rows, columns), min(rows, columns)) > MOST_MINORS
+        if rows == columns or value.is_zero or is_long:
+            return found
+        terms = []
+        for minor in minors(jacobian, min(rows, columns)):
+            number, factors = self._product(minor) or (Fraction(1), [(self.compactor.form(minor), 1)])
+            powers = Counter[Node]()
+            for node, power in factors:
+                powers[node] += 2 * power
+            terms.append((number**2, powers))
+        shared = reduce(and_, (powers for _, powers in terms))
+        rests = [
+            times(n, [(node, p - shared[node]) for node, p in powers.items() if p != shared[node]])
+            for n, powers in terms
+        ]
+        squares = times(1, [*shared.items(), (total(rests), 1)])
+        return min(found, squares, key=cost)
+
     def fraction(self, value: RationalExpr) -> Node:
         """A fraction, numerator and denominator as products."""
         return self.matrix(FractionMatrix(self.ring, ((value,),))).rows[0][0]
@@ -463,7 +489,7 @@ class ProductForms:
                 numerator, divisor = numerator * base, divisor * base
         if self._is_negative(divisor):  # of a determinant, a₁ a₃ - a₂² c², and not its opposite
             numerator, divisor = -numerator, -divisor
-        choices = (divmod(numerator.poly, divisor.poly), _exactly_divided(numerator, divisor))
+        choices = (divmod(numerator.poly, divisor.poly), exactly_divided(numerator, divisor))
         splits = [[Expr(self.ring, self.ring.reduce(part)) for part in parts] for parts in choices]
         whole, rest = min(splits, key=lambda parts: (_has_halves(*parts), sum(map(len, parts))))
         if (
@@ -540,20 +566,6 @@ class ProductForms:
             expr = -expr
         whole = expr * lcm(*(int(c.q) for c in expr.poly.coeffs()))
         return expr if self.decimal and _has_long(whole) else whole
-
-
-def _exactly_divided(numerator: Expr, divisor: Expr) -> tuple[fmpq_mpoly, fmpq_mpoly]:
-    """(whole, rest): of m (m L³ + J L) θ̇² + J f over m L² + J the factor of θ̇² is divided, and J f left."""
-    inside, zero = set(divisor.used), numerator.ring.zero.poly
-    factors: dict[tuple[int, ...], fmpq_mpoly] = {}
-    for exponents, number in numerator.poly.terms():
-        beside = tuple(0 if k in inside else int(e) for k, e in enumerate(exponents))
-        factors[beside] = factors.get(beside, zero) + zero.context().from_dict({exponents: number})
-    whole, rest = zero, zero
-    for factor in factors.values():
-        quotient, left = divmod(factor, divisor.poly)
-        whole, rest = (whole, rest + factor) if left else (whole + quotient, rest)
-    return whole, rest
 
 
 def _has_halves(*exprs: Expr) -> bool:

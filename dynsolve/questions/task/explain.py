@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.matrix import determinant
+from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.document.sentences import Value, say
@@ -147,6 +148,8 @@ def _determinant(context: Context) -> Step:
         )
     shown = context.show(squared(context.values[name]))
     letter = formula("det {of}", of=square_of(J, context.values[name]))
+    value = context.values["det"]
+    by_minors = not isinstance(value, Skipped) and context.form("det") != context.forms.products.form(value)
     way = (
         determinant_way(context, letter, context.values[name], context.form("det"))
         if rows == columns
@@ -156,7 +159,9 @@ def _determinant(context: Context) -> Step:
         id="det",
         title="The determinant of the Jacobian",
         why=why,
-        formula=equation(letter, formula("det {matrix}", matrix=shown)) if is_small(shown) else None,
+        formula=equation(letter, formula("det {matrix}", matrix=shown))
+        if is_small(shown) and not by_minors
+        else None,
         source=spong("4.9" if rows == columns else "4.12"),
         lines=way.lines,
         concluding=way.concluding,

@@ -75,6 +75,10 @@ def test_a_space_with_a_wrong_vector_is_found(name: str) -> None:
         (ELBOW, "l1*l2*sin(q2)"),
         (THREE + "task: [tip.x, tip.y, q1 + q2 + q3]\n", "l1*l2*sin(q2)"),
         (ELBOW + "task: [tip.x]\n", "(l1*sin(q1) + l2*sin(q1 + q2))**2 + l2**2*sin(q1 + q2)**2"),
+        (THREE, "l1**2*(l2*sin(q2) + l3*sin(q2 + q3))**2 + l3**2*(l1*sin(q2 + q3) + l2*sin(q3))**2"
+         " + l2**2*l3**2*sin(q3)**2"),
+        (THREE.replace("l2", "l1").replace("l3", "l1"),
+         "l1**4*((sin(q2) + sin(q2 + q3))**2 + (sin(q2 + q3) + sin(q3))**2 + sin(q3)**2)"),
         ("dh: [{theta: q1*, a: l1}]\n", "l1**2"),
         ("dh: [{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, alpha: 90deg}, {d: d3*}]\n",
          "d3**2*sin(q2)"),
