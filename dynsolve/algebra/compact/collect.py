@@ -223,6 +223,10 @@ class Collector:
             return 1, node
         return -1, total([self.product(-f, m, ()) for m, f in self.ordered(terms)])
 
+    def side_by_side(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
+        """Σ factor · monomial · tree with nothing drawn out: the entries of D are read off from a row."""
+        return total([self.product(f, m, ()) for m, f in self.ordered(self.added(products))])
+
     def apart(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
         """Σ factor · monomial · tree of different rates: a few stand apart where sums multiply them.
 

@@ -48,7 +48,7 @@ MUCH_CHEAPER = 0.75
 """Energies, momenta, torques stay collected by velocities unless another order costs less than this part."""
 
 LONG = 60
-"""From this number of operations on a momentum or an entry of C takes the cheaper order, as velocities do."""
+"""From this number of operations on a momentum, an entry of C or a row of D q̈ takes the cheaper order."""
 
 SMALLEST_SQUARE = 3
 """The terms of (a c₂ + b c₂₃)², multiplied out."""
@@ -217,6 +217,10 @@ class Compactor:
     def _outside_or_inside(self, terms: Terms, kind: tuple[int, int]) -> Node:
         split = split_at(terms, RATES)
         parts = self._grouped(self._monomials(split), self._coefficient)
+        if kind == (1, 0):
+            row = self.collector.side_by_side(parts)
+            if self.collector.cost(row) <= LONG:
+                return row
         outside = self.collector.sum_of(parts)
         if len(split) == 1:
             return outside

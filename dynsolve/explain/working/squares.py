@@ -382,21 +382,21 @@ def without_signs(node: Node) -> Node:
 def _multiplied(context: Context, components: Sequence[Expr], form: Node) -> list[Tactic] | None:
     """The squares multiplied out, and the brackets worked out; at once where sums of lengths stay in these.
 
-    None where a bracket holds rates too, or there are many, and where the squares are in other angles than
-    those of the ring, in which they are multiplied out here: s₃² c₁² is none of what (a s₃)² has.
+    None where a bracket holds rates too, or there are many, and where the squares are written otherwise than
+    in the ring, in which they are multiplied out here: s₃² c₁² is none of what (a s₃)² has.
     """
     ring = context.robot.ring
     alone, together = _separate(ring, components)
     if not together:
         return []
-    if not are_in_basic_angles(context, together):
-        return None
     poly = sum((x.poly * x.poly for x in together), start=ring.zero.poly)
     found = groups(context.forms, poly)
     if found is None:
         return None
     first = [_sum_of_squares(context, alone)] if alone else []
     multiplied, reduced = (sum_of([*first, *forms]) for forms in zip(*found, strict=True))
+    if identities(ring, _sum_of_squares(context, components), multiplied):
+        return None
     used = identities(ring, multiplied, reduced)
     if not used:
         return []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 
 import dynsolve
 from dynsolve.algebra.ring import Expr
@@ -78,7 +78,17 @@ def assert_named(solution: dynsolve.Solution) -> None:
             assert not by or not are_alike(*pair), (each.id, by)
 
 
+TILTED_TWICE = """
+title: tilted twice by one angle, whose sine squared is 1 - cos² in the ring
+convention: modified
+base: Ry(17deg)
+dh: [{theta: q1*, alpha: 17deg}]
+masses: [{mass: m1, link: 1, center: [x1, 0, 0]}]
+"""
+
+
 @settings(max_examples=5, deadline=None)
+@example(problem=TILTED_TWICE)
 @given(robots(max_joints=3))
 def test_every_line_of_any_robot_is_true_and_its_identities_are_named(problem: str) -> None:
     solution = dynsolve.solve(problem)
