@@ -69,7 +69,7 @@ def test_results(step: str, printed: str) -> None:
 def test_given_numbers_have_their_units() -> None:
     found = steps()
     assert shown(found["I_body1"].working[0]) == "m = 2.5 kg, l = 0.5 m"
-    assert "m₁ = 2.5 kg, g = 9.81 m/s²" in map(shown, found["P1"].further)
+    assert "g = 9.81 m/s²" in map(shown, found["P1"].further)
     assert shown(found["P1"].further[0]) == "𝐠₀ = [[0, -9.81, 0]]ᵀ m/s²"
     assert shown(found["A1"].working[0]) == "θ = q₁⋆, d = 0, a = 0.5 m, α = 0"
     assert shown(found["rc2"].further[0]) == "𝐫_{1,c2}² = [[0.15], [0], [0]] m"
