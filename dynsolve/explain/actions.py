@@ -126,8 +126,7 @@ def rotor_steps(context: Context) -> Iterator[Step]:
         ),
         formula=equation(letters.KM, counted_sum(energy, letters.COUNT, len(motors)) if several else energy),
         source=siciliano("7.1.1"),
-        working=(equation(letters.KM, sum_of(energies)),),
-        result=(equation(letters.KM, context.form("Km")),),
+        result=(equation(letters.KM, sum_of(energies)),),
         notes=tuple(_carriers(context)),
         normal=NOTED,
         hint=("Half the moment of inertia of each rotor times the square of all that it turns with.",),
@@ -252,19 +251,18 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
     step = Step(
         id=f"P{body.name}",
         title=f"Potential energy of {name_of(body)}",
-        formula=equation(P, Negative(Product((m, pull)))),
+        formula=None if body.mass.is_zero else equation(P, Negative(Product((m, pull)))),
         source=spong("7.2.3"),
         result=(equation(P, context.form(f"P{body.name}")),),
         normal=WORKED | Part.WHY,
     )
     if context.robot.gravity.is_zero:
         return replace(step, why=("There is no gravity.",), said="no gravity")
-    further = (gravity_given(context),) if tells else ()
-    normal = step.normal if tells or body.mass.is_zero else WORKED
-    step = replace(step, further=further, normal=normal)
     if body.mass.is_zero:
         why = f"{opened(name_of(body))} has inertia but no mass, so gravity does not act on it."
         return replace(step, why=(why,))
+    further = (gravity_given(context),) if tells else ()
+    step = replace(step, further=further, normal=step.normal if tells else WORKED)
     gravity = _of_gravity(context) if tells else ()
     along = _along(context)
     if along is None:

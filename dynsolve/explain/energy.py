@@ -80,7 +80,7 @@ def steps(context: Context) -> Iterator[Step]:
         group = Group(f"K{body.name}", f"Kinetic energy of {name_of(body)}")
         yield replace(jacobians, group=group, normal=STATED | (Part.WHY if body is bodies[0] else STATED))
         yield replace(_velocities(context, body), group=group, normal=STATED)
-        yield replace(linear, group=group, normal=WORKED if linear.working or linear.lines else STATED)
+        yield replace(linear, group=group)
         yield replace(_rotational(context, body), group=group)
         yield replace(_kinetic(context, body), group=group)
     yield from rotors
@@ -236,10 +236,11 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
     velocity = written_velocity(context, body)
     half = "Half the mass times the square of the speed of the mass centre"
     why, working = f"{half}.", tuple[Node, ...]()
-    if context.values[f"v{b}"].is_zero:
+    written: Node | None = Product((letters.HALF, context.forms.mass(body), letters.transposed_product(v)))
+    if body.mass.is_zero:
+        why, written = "The body has no mass, only inertia.", None
+    elif context.values[f"v{b}"].is_zero:
         why = "The mass centre does not move."
-    elif body.mass.is_zero:
-        why = "The body has no mass, only inertia."
     elif is_small(velocity, velocity):
         working = (equation(Kv, squared(context, body)),)
     way = linear(context, body, squares_shown=bool(working))
@@ -248,10 +249,9 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
         id=f"Kv{b}",
         title=f"Translational kinetic energy of {name_of(body)}",
         why=(why,),
-        formula=formula(
-            "{Kv} = ½ {m} {square}", Kv=Kv, m=context.forms.mass(body), square=letters.transposed_product(v)
-        ),
-        source=spong("7.2"),
+        formula=equation(Kv, written) if written else None,
+        source=spong("7.2") if written else "",
+        normal=WORKED if way.lines or working else STATED | Part.WHY if written is None else STATED,
         working=() if afresh else working,
         lines=way.lines if afresh else outlined(way.lines),
         concluding=way.concluding,

@@ -48,14 +48,11 @@ from dynsolve.explain.terms import ID, rows_in_names
 from dynsolve.explain.writing import (
     GAUTIER_KHALIL,
     KHALIL_DOMBRE,
-    cited,
     is_small,
     listed,
     machine,
     measured,
-    of_second_edition,
     side_by_side,
-    titled,
 )
 from dynsolve.notation.printing import Style
 from dynsolve.notation.rounding import is_rounded, marked, marked_among_words
@@ -83,6 +80,7 @@ from dynsolve.quantities.owners import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
 from dynsolve.robot.model import Robot
+from dynsolve.solution.books import cited, of_second_edition, titled
 from dynsolve.solution.depths import Drawn, Shown
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.leading import leading

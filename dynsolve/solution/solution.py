@@ -95,7 +95,7 @@ class Solution(Dynamics, frozen=True, dict=True):
         from dynsolve.document import rewritten
         from dynsolve.explain.context import Context
         from dynsolve.explain.hint import hint_document
-        from dynsolve.explain.writing import of_second_edition
+        from dynsolve.solution.books import of_second_edition
 
         context = Context(self.robot, self.values, self.forms, normals=self.problem.normals)
         document = hint_document(self.problem.title, context, stage)
