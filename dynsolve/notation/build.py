@@ -141,6 +141,9 @@ def negated(node: Node) -> Node:
     return node.argument if isinstance(node, Negative) else node if node == ZERO else Negative(node)
 
 
+QUARTERS = (2, 4, 8)
+"""Beside fractions and roots decimals with these below the line are fractions, too: 7/24 + c₂²/8, √2/2."""
+
 _PI = Symbol("pi")
 _DEGREES = 180
 
@@ -151,7 +154,7 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     Signs and numbers of the factors are drawn to the front, products flattened, in
     the given order: 1/(2·3 a) is 1/(6 a).  With `decimal`, and of a decimal, a fraction is one number in
     front, 0.12 c₂ and not 3 c₂/25; one that does not end is kept exact, and rounded where it is shown.
-    Parts of a turn stay fractions: π/6.
+    Parts of a turn stay fractions: π/6; so do halves of a root: √2/2.
     """
     factors = tuple(factors)
     above: list[Node] = []
@@ -181,7 +184,9 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     size = coefficient if coefficient > 0 else -coefficient
     is_turn = _PI in above and _DEGREES % size.denominator == 0
     is_decimal = decimal or any(_begins_with_decimal(node) for node, _ in factors)
-    if size.denominator != 1 and is_decimal and not is_turn:
+    has_root = any(isinstance(factor, Function) and factor.name == "sqrt" for factor in above)
+    is_fraction = is_turn or (has_root and size.denominator in QUARTERS)
+    if size.denominator != 1 and is_decimal and not is_fraction:
         node = _decimal(size, above)
         node = Quotient(node, _product(below)) if below else node
     else:

@@ -15,6 +15,7 @@ from typing import Any, ClassVar
 
 from msgspec import Struct, field
 
+from dynsolve.notation.build import QUARTERS, split_sign
 from dynsolve.notation.tree import (
     Function,
     Letter,
@@ -116,6 +117,18 @@ _REMEMBERED = frozenset({Sum, Product, Quotient, Power, Function, Letter})
 _CAPITAL = re.compile(r"(?<!^)(?=[A-Z])")
 
 
+def _in_quarters(term: Node) -> Node:
+    """A term with a half, quarters or eighths in front as a fraction."""
+    sign, inner = split_sign(term)
+    match inner:
+        case Number(p, q) if q in QUARTERS:
+            inner = Quotient(Number(p), Number(q))
+        case Product((Number(p, q), *others)) if q in QUARTERS:
+            above = others if p == 1 else [Number(p), *others]
+            inner = Quotient(above[0] if len(above) == 1 else Product(tuple(above)), Number(q))
+    return inner if sign > 0 else Negative(inner)
+
+
 class _Methods(dict[type[Node], Callable[[Any, Any], str]]):
     """The method of a printer for each class of nodes, looked up by the name of the class once."""
 
@@ -198,11 +211,21 @@ class Printer:
         plus, minus = self.signs
         lead = self.minus
         pieces: list[str] = []
-        for term in node.terms:
+        has_fraction = self.style.decimal and any(map(self._is_fraction, node.terms))
+        for term in map(_in_quarters, node.terms) if has_fraction else node.terms:
             text = self.text(term)
             pieces += (minus, text[len(lead) :]) if text.startswith(lead) else (plus, text)
         pieces[0] = "" if pieces[0] == plus else lead
         return "".join(pieces)
+
+    def _is_fraction(self, term: Node) -> bool:
+        """Whether a number in front of a term is no decimal: m l²/24."""
+        match split_sign(term)[1]:
+            case (Number() as number) | Product((Number() as number, *_)):
+                return number.q != 1 and self.style.number(number) is None
+            case Quotient(_, Number()):
+                return True
+        return False
 
     def _negative(self, node: Negative) -> str:
         text = self.text(node.argument)

@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 
 from dynsolve.notation.build import times, total
+from dynsolve.notation.printing import Style
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Negative, Node, Product, Symbol
 from dynsolve.notation.unicode import UnicodePrinter
@@ -39,6 +40,17 @@ def test_what_is_made_of_a_decimal_is_one() -> None:
     assert printed(times(1, [(own, 1), (rate, 1)])) == "0.5 x² q̈"
     assert printed(times(1, [(times(-1, [(own, 1)]), 1), (rate, 1)])) == "-0.5 x² q̈"
     assert printed(times(2, [(own, 1), (rate, 1)])) == "x² q̈"
+
+
+def test_beside_fractions_and_roots_halves_are_fractions() -> None:
+    def term(factor: Fraction, *names: str) -> Node:
+        return times(factor, [(tree(name), 1) for name in names], decimal=True)
+
+    printed = UnicodePrinter(Style(decimal=True)).text
+    third, quarter, other = term(Fraction(1, 12)), term(Fraction(-1, 4), "x"), term(Fraction(7, 20), "y")
+    assert printed(total([third, quarter, other])) == "1/12 - x/4 + 0.35 y"
+    assert printed(total([quarter, other])) == "0.35 y - 0.25 x"
+    assert printed(term(Fraction(3, 4), "sqrt(2)", "x")) == "3√2 x/4"
 
 
 def test_accelerations_stay_in_their_order() -> None:
