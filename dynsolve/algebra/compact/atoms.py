@@ -141,7 +141,9 @@ class RingAtoms:
         self._trig: dict[tuple[int, int], tuple[int, Monomial]] = {}
         self._functions: dict[int, tuple[str, Angle]] = {}
         self._of_functions: dict[tuple[str, Angle], int] = {}
-        self._adds_angles = any(self._is_constant(pair.angle) for pair in ring.pairs)
+        self._adds_angles = any(
+            g.kind in ("constant", "sin") and self._is_constant(g.angle) for g in ring.generators
+        )
 
     def _of_generators(self) -> Iterator[tuple[int, int]]:
         """(the part in which each generator stands, its place there; of a symbol its index)"""

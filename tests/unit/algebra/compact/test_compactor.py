@@ -166,6 +166,7 @@ def test_no_number_stands_before_a_sum_of_fractions(written: str, printed: str) 
         ("sin(beta)*cos(phi) + cos(beta)*sin(phi)", "sin(beta + phi)"),
         ("m1*g*(cos(q1)*cos(beta) - sin(q1)*sin(beta))", "m1*g*cos(q1 + beta)"),
         ("a*cos(q1)*sin(beta) + b*sin(q1)*cos(beta)", "b*sin(q1)*cos(beta) + a*cos(q1)*sin(beta)"),
+        ("m1*a*(cos(q1)*cos(25deg) + sin(q1)*sin(25deg))", "m1*a*cos(q1 - 0.4363323129985824)"),
     ],
 )
 def test_a_constant_angle_is_added_to_another(written: str, printed: str) -> None:
