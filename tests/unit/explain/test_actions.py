@@ -59,7 +59,8 @@ def test_each_stands_in_the_formula_of_its_step(id: str, formula: str) -> None:
     ],
 )
 def test_what_the_problem_gives_is_put_in(id: str, working: str) -> None:
-    assert shown(step(id).working[0]) == working
+    found = step(id)
+    assert shown((*found.working, *found.result)[0]) == working
 
 
 def test_a_passive_coordinate_has_no_drive() -> None:
