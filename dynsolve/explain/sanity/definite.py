@@ -30,7 +30,7 @@ from dynsolve.explain.sanity.determinant import (
 )
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.writing import listed, spong, sum_of
-from dynsolve.notation.build import cost, times
+from dynsolve.notation.build import cost, factors_of, times
 from dynsolve.notation.tree import (
     ZERO,
     Function,
@@ -46,6 +46,7 @@ from dynsolve.notation.tree import (
     Symbol,
     Words,
     equation,
+    names_in,
     number,
 )
 from dynsolve.quantities import letters
@@ -67,33 +68,52 @@ def definite_step(context: Context) -> Step | None:
 
 
 def _singular(context: Context) -> Step | None:
-    """That det D = 0 in every pose, and what that means; None where it is not so."""
+    """That det D = 0 in every pose, or where a factor of it is, and what that means; None of any other."""
     D, rows = context.values["D"], range(context.robot.n)
-    if not matrix.determinant(D).is_zero:
-        return None
+    value = matrix.determinant(D)
     zero = next((i + 1 for i in rows if all(entry.is_zero for entry in D.rows[i])), 0)
     equal = next(((i + 1, j + 1) for i, j in combinations(rows, 2) if D.rows[i] == D.rows[j]), (0, 0))
     reason = "In every pose {det}"
-    if zero:
+    if not value.is_zero:
+        reason = "{det}, so $𝐃$ has no inverse where {places}"
+    elif zero:
         reason = "In every pose row {zero} of $𝐃$ is 0, so {det}"
     elif any(equal):
         reason = "In every pose rows {i} and {j} of $𝐃$ are equal, so {det}"
+    form = context.show(value)
+    places = [equation(factor, ZERO) for factor in _vanishing(context, form)]
+    if not (value.is_zero or places) or cost(form) > LONGEST:
+        return None
     told = say(
         reason + ": some rates that are not 0 have no kinetic energy, and the forces do not determine all "
         "accelerations.",
-        det=equation(Row((Words("det "), letters.D)), ZERO),
+        det=equation(Row((Words("det "), letters.D)), form),
         zero=zero,
         i=equal[0],
         j=equal[1],
+        places=listed(places, "or"),
     )
+    title = "has no inverse" if value.is_zero else "has no inverse in some poses"
     return Step(
         id="definite",
-        title="Check: the inertia matrix has no inverse",
+        title=f"Check: the inertia matrix {title}",
         why=told,
         source=spong("7.5.1"),
         outcome=told,
         is_task=False,
     )
+
+
+def _vanishing(context: Context, form: Node) -> list[Node]:
+    """The factors of a form that are a coordinate, or a sine or cosine of some."""
+    bases = [each.base if isinstance(each, Power) else each for each in factors_of(form)]
+    names = context.robot.ring.names
+    return [
+        base
+        for base in bases
+        if (isinstance(base, Function) and base.name in ("sin", "cos") and names_in(base) & {*names})
+        or (isinstance(base, Symbol) and base.name in names)
+    ]
 
 
 def _step(

@@ -16,6 +16,7 @@ from dynsolve.explain.sanity.definite import blocks, definite_step, determinant
 from dynsolve.explain.sanity.determinant import is_nonnegative, is_positive, masses_and_moments
 from dynsolve.explain.step import Step
 from dynsolve.notation.text import read
+from dynsolve.notation.tree import Relation
 from dynsolve.notation.unicode import to_unicode
 from tests.robots import robots
 from tests.support import solved
@@ -208,8 +209,12 @@ POINTS = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nmasses: [{mass: m2, li
 """Without a mass at the elbow D is singular where the arm is stretched."""
 
 
+OFFSET = "dh: [{theta: q1*, a: e, alpha: 90deg}, {theta: q2*, a: l2}]\nmasses: [{mass: m2, link: 2}]\n"
+"""D is singular where e + l₂ c₂ = 0, which depends on the lengths."""
+
+
 def test_of_a_matrix_that_may_be_singular_nothing_is_said() -> None:
-    assert check(POINTS, "definite") is None
+    assert check(OFFSET, "definite") is None
     assert check(POINTS, "point_masses") is None
 
 
@@ -273,7 +278,7 @@ def test_joints_that_gravity_does_not_load(problem: str, told: str | None) -> No
 
 @pytest.mark.parametrize("step_of", [*CHECKS[1:], *CHECKS_OF_LONGER_ARMS], ids=lambda made: made.__name__)
 def test_a_check_speaks_of_some_robots_only(step_of: Callable[[Context], Step | None]) -> None:
-    problems = ("planar-2r", "planar-2r-remote", "elbow-3r", "five-bar", "elastic-joint", POINTS)
+    problems = ("planar-2r", "planar-2r-remote", "elbow-3r", "five-bar", "elastic-joint", POINTS, OFFSET)
     found = [step_of(context(problem)) for problem in problems]
     assert None in found and len({step.id for step in found if step is not None}) == 1
 
@@ -314,14 +319,31 @@ def test_what_is_said_of_any_robot_is_true(problem: str) -> None:
     }
     step = definite_step(found)
     if step is not None:
-        says_singular = step.title.endswith("no inverse")
-        assert determinant(found.values["D"].rows).is_zero if says_singular else is_definite(found, state)
+        value = determinant(found.values["D"].rows)
+        if "no inverse" in step.title:
+            assert value.is_zero == step.title.endswith("no inverse")
+        else:
+            assert is_definite(found, state)
 
 
 def is_definite(found: Context, state: dict[str, float]) -> bool:
     """Whether all eigenvalues of D are positive."""
     matrix = np.array([[evaluate(entry, state) for entry in row] for row in found.values["D"].rows])
     return bool(np.linalg.eigvalsh(matrix).min() > 0)
+
+
+@pytest.mark.parametrize(
+    ("rows", "mass", "told"),
+    [
+        ("{theta: q1*, alpha: 90deg}, {theta: q2*, a: l}", "{mass: m, link: 2, shape: point}", "cos(q₂) = 0"),
+        ("{theta: q1*, a: l1}, {theta: q2*, a: l2}", "{mass: m, link: 2, shape: point}", "sin(q₂) = 0"),
+        ("{theta: q1*}, {d: q2*, alpha: 90deg}, {d: q3*}", "{mass: m, link: 3, shape: point}", "q₃ = 0"),
+    ],
+)
+def test_where_a_factor_of_the_determinant_is_0_there_is_no_inverse(rows: str, mass: str, told: str) -> None:
+    step = definite_step(context.__wrapped__(f"dh: [{rows}]\nmasses: [{mass}]\n"))
+    assert step is not None and step.title == "Check: the inertia matrix has no inverse in some poses"
+    assert [to_unicode(part) for part in step.why if isinstance(part, Relation)][-1] == told
 
 
 def test_a_singular_matrix_would_be_noticed() -> None:
