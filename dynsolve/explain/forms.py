@@ -40,7 +40,7 @@ from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import Turn, parallel_groups, turned_otherwise
-from dynsolve.robot.model import Body, Convention, JointType, Robot
+from dynsolve.robot.model import Body, Convention, Robot
 from dynsolve.robot.typed_sums import printed_sums
 
 LONG = 300
@@ -377,12 +377,11 @@ def _linear_names(expr: Expr) -> list[str]:
 def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
     """The names whose angles add up: coordinates that turn about parallel axes, constant angles beside them.
 
-    Without joints all coordinates that turn.  A constant angle is with the joints before what it stands in,
+    Without joints all that stand in angles.  A constant angle is with the joints before what it stands in,
     but not where it turns about another axis.
     """
     if not robot.has_table:
-        turning = frozenset(q.name for q in robot.coordinates if q.type is JointType.REVOLUTE)
-        return [turning | _constant_angles(robot)] if turning else []
+        return [frozenset(name for pair in robot.ring.pairs for name in names_of(pair.angle))]
     turns = [
         Turn(joint.theta, joint.alpha, joint.variable == "theta", joint.parent) for joint in robot.joints
     ]

@@ -105,14 +105,12 @@ def total(terms: Sequence[Node]) -> Node:
         return ZERO
     if len(flat) == 1:
         return flat[0]
-    return Sum(tuple(_plus_first(flat)))
+    return Sum(tuple(flat if _moves_once(flat[0]) else plus_first(flat)))
 
 
-def _plus_first(terms: list[Node]) -> list[Node]:
+def plus_first(terms: Sequence[Node]) -> list[Node]:
     """The terms with the first positive ones before the negative ones that they start with."""
     first = next((i for i, t in enumerate(terms) if not isinstance(t, Negative)), 0)
-    if not first or _moves_once(terms[0]):
-        return terms
     last = next((i for i in range(first, len(terms)) if isinstance(terms[i], Negative)), len(terms))
     return [*terms[first:last], *terms[:first], *terms[last:]]
 

@@ -34,7 +34,7 @@ from dynsolve.algebra.compact.terms import (
     rational_root,
     whole_content,
 )
-from dynsolve.notation.build import cost, number_in_front, split_sign, summands, times, total
+from dynsolve.notation.build import cost, number_in_front, plus_first, split_sign, summands, times, total
 from dynsolve.notation.tree import (
     ONE,
     ZERO,
@@ -123,17 +123,24 @@ class Collector:
             mono = multiply(mono, tuple((atom, e * exponent) for atom, e in atoms))
         return min(plain, self.product(factor, mono, ()), key=self.cost)
 
-    def whole(self, poly: Polynomial) -> tuple[Rational, Monomial]:
-        """A polynomial as (factor, monomial), a sum with whole numbers as one atom: ½ and (2 q̇₁ + q̇₂)."""
+    def whole(self, poly: Polynomial, beside: int = 0) -> tuple[Rational, Monomial]:
+        """A polynomial as (factor, monomial), a sum with whole numbers as one atom: ½ and (2 q̇₁ + q̇₂).
+
+        With the sign of what stands `beside` a difference is turned so that there is no minus before both.
+        """
         if len(poly) == 1:
             ((mono, factor),) = poly.items()
             return factor, mono
         shared = whole_content(poly.values())
         if self.decimal and not self._is_of_rates(poly, shared):
             shared = self.content(poly.values())  # 1.5 + 0.5 m, and not 0.5 (3 + m)
-        if self.mostly_negative(poly):
+        is_difference = len({f > 0 for f in poly.values()}) == 2
+        if beside < 0 if beside and is_difference else self.mostly_negative(poly):
             shared = -shared
-        factor, mono = self.decompose(self.form({mono: exact(f, shared) for mono, f in poly.items()}))
+        node = self.form({mono: exact(f, shared) for mono, f in poly.items()})
+        if beside and isinstance(node, Sum):
+            node = Sum(tuple(plus_first(node.terms)))
+        factor, mono = self.decompose(node)
         return factor * shared, mono
 
     def _typed_in(self, poly: Polynomial) -> Rational | None:
