@@ -266,14 +266,13 @@ class Compactor:
         1.3 g and 3 g are g (1.3 s₁ + 3 s₁₂), and 0.5 (0.4 a + 0.6 b)(2q̇₁ q̇₂ + q̇₂²) has 0.2 a + 0.3 b.
         """
         node = form(part)
-        sign, _ = split_sign(node)
         if not self.collector.decimal:
-            return *self.collector.whole(factors, sign), node
+            return *self.collector.whole(factors, split_sign(node)[0]), node
         alike, _ = self.collector.decompose(node)
         if alike != 1:
             factors = {mono: exact(f * alike, 1) for mono, f in factors.items()}
             part = {e: exact(f, alike) for e, f in part.items()}
-        number, mono = self.collector.whole(factors, sign)
+        number, mono = self.collector.whole(factors, 1)
         if abs(number) != 1 and len(part) > 1:
             part, number = {e: exact(f * number, 1) for e, f in part.items()}, 1
         return number, mono, form(part)

@@ -40,3 +40,15 @@ def test_of_several_groups_of_parallel_joints_a_constant_angle_is_with_those_tha
     assert parallel_coordinates(solved(UPRIGHT).robot) == [{"q1"}, {"q2", "q3", "beta"}]
     on_the_first = UPRIGHT.replace("link: 3", "link: 1")
     assert parallel_coordinates(solved(on_the_first).robot) == [{"q1", "beta"}, {"q2", "q3"}]
+
+
+def test_what_a_disk_rolls_adds_to_the_angle_of_its_beam() -> None:
+    rolling = """
+gravity: none
+model:
+  coordinates: {theta: revolute, x: prismatic}
+  bodies:
+    - {mass: m, at: [x*cos(theta), x*sin(theta), 0], turn: theta - x/R, inertia: {zz: J}}
+"""
+    forms = solved(rolling).forms
+    assert to_unicode(forms.matrix("R1").rows[0][0]) == "cos(θ - x/R)"
