@@ -31,7 +31,7 @@ from dynsolve.explain.writing import (
     sum_of,
 )
 from dynsolve.notation import tree
-from dynsolve.notation.build import times, total
+from dynsolve.notation.build import number_in_front, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Negative,
@@ -79,13 +79,15 @@ def stored_steps(context: Context) -> Iterator[Step]:
         return
     terms = [told.term(context, act) for told, acts in kinds for act in acts]
     has_law = any(term is not None for term in terms)
-    shown = [term or context.show(act.energy) for term, act in zip(terms, stored, strict=True)]
+    shown = [
+        term or number_in_front(context.show(act.energy)) for term, act in zip(terms, stored, strict=True)
+    ]
     hint = said_of_laws(context.robot, "HINT")
     yield Step(
         id="Ps",
         title=f"Potential energy of the spring{'s' if len(stored) > 1 else ''}",
         why=(" ".join(told.why(acts) for told, acts in kinds),),
-        formula=equation(letters.PS, sum_of(shown)) if has_law else None,
+        formula=equation(letters.PS, sum_of(shown)) if has_law or len(shown) > 1 else None,
         source=siciliano("7.1.2"),
         result=(equation(letters.PS, context.form("Ps")),),
         hint=(hint,) if hint else (),
