@@ -93,8 +93,8 @@ class CellValues:
 # The exact position of a point that is fixed in a link; one that would not be is reported
 
 _TIP_ROW = (
-    "add a fixed row for the tip, {theta: 0, d: 0, a: l, alpha: 0} with its length, "
-    "or give the centre as [x, y, z]"
+    "give the centre as [x, y, z], or in a table add a fixed row for the tip, "
+    "{theta: 0, d: 0, a: l, alpha: 0} with its length"
 )
 
 
@@ -124,7 +124,7 @@ class PlaceBuilder(Struct, frozen=True):
         if place.kind == "near":
             point = near + given if given else None
         elif far is None:
-            message = f"link {link} has no far end: the table has no row {link + 1}"
+            message = f"link {link} has no far end: no row comes after it"
             self.faults.error(place.span, message, _TIP_ROW)
             return None
         elif place.kind == "tip":
@@ -142,7 +142,10 @@ class PlaceBuilder(Struct, frozen=True):
         if given is None or self.links is None or self.links.is_fixed(given):
             return given
         message = f"this point is not fixed in link {link}: it slides otherwise than the drawing of the link"
-        help = "add the letters of the slides that come before the link, and no others"
+        help = (
+            "add the letters of the slides before the link that the axes have, and no others: "
+            "a slide that no axis has is 0 as drawn"
+        )
         self.faults.error(place.span, message, help)
         return None
 
