@@ -219,8 +219,11 @@ def _disk(
     at, radius = view.point(center), _radius(spin, speed)
     if touches:
         ground = add(center, scale(cross(spin, speed), 1.0 / dot(spin, spin)))
-        ends = (view.point(along(ground, unit(speed), side * 2.5 * radius)) for side in (-1.0, 1.0))
-        yield Path(paths.line(*ends), paths.BLACK, 2.0)
+        reach = [-2.5 * radius, 2.5 * radius]
+        back = -dot(ground, unit(speed))
+        if length(along(ground, unit(speed), back)) < NEAR:  # the line goes through the origin, a pivot there
+            reach = [min(back, *reach), max(back, *reach)]
+        yield Path(paths.line(*(view.point(along(ground, unit(speed), x)) for x in reach)), paths.BLACK, 2.0)
     rim = paths.ellipse(at, *half_axes(unit(spin), view, radius * view.size))
     yield Path(rim, fill=BODY.top)
     spoke = min(axes, key=lambda axis: abs(dot(axis, spin)))
