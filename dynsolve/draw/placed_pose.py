@@ -296,9 +296,8 @@ class PlacedPose(Struct, frozen=True):
             if (moved.scale(square) + cross(turned, to_line)).is_zero:
                 continue
             carried = Matrix.column(ring, [ring.diff(entry, j) for entry in way.entries])
-            is_straight = not any(map(ring.depends_on_coordinates, moved.entries))
-            in_plane = ring.dot(moved.entries, spin.entries).is_zero
-            if j == k or carried != cross(turned, way) or (turned.is_zero and not (is_straight and in_plane)):
+            in_plane = _is_straight(moved) and ring.dot(moved.entries, spin.entries).is_zero
+            if j == k or carried != cross(turned, way) or (turned.is_zero and not in_plane):
                 return False
         return True
 
@@ -322,10 +321,20 @@ class PlacedPose(Struct, frozen=True):
 
 
 def _rolling(robot: Robot, body: Body) -> tuple[Matrix, Matrix, int | None]:
-    """J_ω and J_v of a body, and the place of the first length that turns it."""
+    """J_ω and J_v of a body, and the place of the first length that turns it, or angle along a line."""
     spins, moves = angular_jacobian(robot, body), position_jacobian(robot, body.center)
-    slides = (k for k, q in enumerate(robot.coordinates) if q.type is JointType.PRISMATIC)
-    return spins, moves, next((k for k in slides if not spins.column_at(k).is_zero), None)
+    turning = [k for k in range(robot.n) if not spins.column_at(k).is_zero]
+    lengths = [k for k in turning if robot.coordinates[k].type is JointType.PRISMATIC]
+    return (
+        spins,
+        moves,
+        next(iter([*lengths, *(k for k in turning if _is_straight(moves.column_at(k)))]), None),
+    )
+
+
+def _is_straight(way: Matrix) -> bool:
+    """Whether what moves a point moves it along one line: ẋ = R θ̇."""
+    return not way.is_zero and not any(map(way.ring.depends_on_coordinates, way.entries))
 
 
 def placed_pose(problem: Problem) -> PlacedPose:

@@ -213,6 +213,8 @@ def said_of_disks(problem: Problem) -> set[str]:
         ("x: prismatic, q: revolute", "[x + l*sin(q), -l*cos(q), 0]", "-x/R", False),
         ("x: prismatic, z: prismatic", "[x, R, z]", "-x/R", False),  # it slides along its axis
         ("x: prismatic", "[x, 0, x]", "[{by: x/R, about: [1, 0, 0]}]", False),  # a screw
+        ("theta: revolute", "[r*theta, r, 0]", "-theta", True),
+        ("theta: revolute", "[2*r*theta, r, 0]", "-theta", True),
     ],
 )
 def test_a_disk_touches_a_line_on_which_it_does_not_slide(
