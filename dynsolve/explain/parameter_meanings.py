@@ -33,7 +33,7 @@ from dynsolve.quantities import letters
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
 from dynsolve.robot.shapes import AXES, MASS, Shape
-from dynsolve.robot.units import ENERGY, si
+from dynsolve.robot.units import of_parameter
 
 
 class Meaning(Struct, frozen=True):
@@ -206,7 +206,7 @@ def _dimensions(robot: Robot) -> dict[str, str]:
         if generator.kind == "symbol" and not generator.dots:
             found = known.of_generator(generator)
             if found is not None:
-                units[generator.name] = "N m" if found == ENERGY else si(found)
+                units[generator.name] = of_parameter(found)
     return units
 
 

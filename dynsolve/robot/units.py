@@ -145,6 +145,20 @@ def si(dim: Dimension) -> str:
     return "/".join([above or "1", *below])
 
 
+def of_parameter(dim: Dimension) -> str:
+    """The SI unit of a parameter: of a torque, a stiffness or a damping by that of a force.
+
+    >>> of_parameter(dimension(mass=1, time=-2)), of_parameter(ENERGY)
+    ('N/m', 'N m')
+    """
+    if dim == ENERGY:
+        return "N m"
+    mass, length, time = dim
+    if mass == 1 and length <= 0 and time in (-1, -2):
+        return f"N{' s' * (time == -1)}/{_raised('m', 1 - length)}"
+    return si(dim)
+
+
 def _raised(name: str, power: Fraction) -> str:
     return name if power == 1 else f"{name}^{power}"
 
