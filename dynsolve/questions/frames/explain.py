@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
+from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Table
@@ -17,7 +18,8 @@ from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.tree import Node, Number, Row, Symbol, Words, column, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.drawing.angles import sign
-from dynsolve.robot.drawing.normals import Drawing, Normals, Relation, dot, frames
+from dynsolve.robot.drawing.normals import Drawing, NoAngle, Normals, Relation, dot, frames
+from dynsolve.robot.drawing.rows import rows_of
 from dynsolve.robot.model import Convention
 
 FRAMES = Group("frames", "The frames")
@@ -212,7 +214,9 @@ def _measured_table(context: Context, normals: Normals) -> Step:
         id="DH",
         title="The Denavit-Hartenberg table",
         why=say(
-            f"{_MEASURED[drawing.convention]} {zero}{more if len(robot.joints) > len(drawing.axes) else ''}",
+            f"{_MEASURED[drawing.convention]} {zero}{more if len(robot.joints) > len(drawing.axes) else ''}"
+            "{drawn}",
+            drawn=_angles_as_drawn(normals),
             theta=theta,
             d=d,
             a=a,
@@ -231,6 +235,20 @@ def _measured_table(context: Context, normals: Normals) -> Step:
         detail=Detail.BRIEF,
         hint=("Measure from frame to frame: about z, along z, along x, about x.",),
     )
+
+
+def _angles_as_drawn(normals: Normals) -> Prose:
+    """The coordinates that turn and are not 0 in the pose that is drawn, as far as they are known there."""
+    drawing = normals.drawing
+    if drawing.zero_is_drawn:
+        return ()
+    try:
+        rows = rows_of(replace(normals, drawing=replace(drawing, zero_is_drawn=True)))
+    except NoAngle:
+        return ()
+    turned = [(row.axis.coordinate, row.theta) for row in rows if row.axis and not row.axis.slides]
+    told = [equation(Symbol(name), angle_node(theta)) for name, theta in turned if theta != Angle.zero()]
+    return say(" In the pose that is drawn, {values}.", values=listed(told)) if told else ()
 
 
 # -- hints -----------------------------------------------------------------------------------------

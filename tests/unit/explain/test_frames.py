@@ -59,3 +59,17 @@ def test_a_hint_has_no_result() -> None:
 
 def test_a_robot_with_a_table_has_no_such_stage() -> None:
     assert not [step for step in dynsolve.solve("planar-2r").steps if step.stage is Stage.FRAMES]
+
+
+def test_coordinates_of_the_table_that_are_not_0_as_drawn_are_told() -> None:
+    wrist = """
+axes:
+  - {turn: q1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {turn: q2, about: [0, 1, 0], through: [b, 0, c]}
+  - {slide: q3, along: [1, 0, 0], through: [b, 0, c + e]}
+tip: [b + q3, 0, c + e]
+convention: modified
+"""
+    table = {step.id: step for step in dynsolve.solve(wrist).steps}["DH"]
+    assert "In the pose that is drawn, _." in words(table)
+    assert "pose that is drawn" not in words(steps(wrist)["DH"])
