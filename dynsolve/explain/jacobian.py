@@ -290,8 +290,9 @@ def _whole(context: Context) -> Step:
         title=f"The Jacobian of {context.end}",
         why=say(
             "The columns side by side. ${Jv} 𝐪̇$ is the velocity of {end}, $𝐉_ω 𝐪̇$ the angular velocity of "
-            "frame {last}.{still}",
+            "frame {last}{of_tree}.{still}",
             Jv=letters.JV,
+            of_tree=", the end that the last row leads to" if context.robot.is_tree else "",
             end=context.end,
             last=last,
             still=_still(context),
