@@ -126,7 +126,7 @@ class Collector:
     def whole(self, poly: Polynomial, beside: int = 0) -> tuple[Rational, Monomial]:
         """A polynomial as (factor, monomial), a sum with whole numbers as one atom: ½ and (2 q̇₁ + q̇₂).
 
-        With the sign of what stands `beside` a difference is turned so that there is no minus before both.
+        With the sign of what stands `beside` a difference of rates is turned so that no minus is before both.
         """
         if len(poly) == 1:
             ((mono, factor),) = poly.items()
@@ -134,11 +134,11 @@ class Collector:
         shared = whole_content(poly.values())
         if self.decimal and not self._is_of_rates(poly, shared):
             shared = self.content(poly.values())  # 1.5 + 0.5 m, and not 0.5 (3 + m)
-        is_difference = len({f > 0 for f in poly.values()}) == 2
-        if beside < 0 if beside and is_difference else self.mostly_negative(poly):
+        is_difference = bool(beside) and len({f > 0 for f in poly.values()}) == 2 and self._has_rates(poly)
+        if beside < 0 if is_difference else self.mostly_negative(poly):
             shared = -shared
         node = self.form({mono: exact(f, shared) for mono, f in poly.items()})
-        if beside and isinstance(node, Sum):
+        if is_difference and isinstance(node, Sum):
             node = Sum(tuple(plus_first(node.terms)))
         factor, mono = self.decompose(node)
         return factor * shared, mono
@@ -168,6 +168,10 @@ class Collector:
         """Whether a polynomial is the number times rates and twice rates: 2q̇₁ q̇₂ + q̇₂²."""
         whole = all(abs(f) in (number, 2 * number) for f in poly.values())
         return whole and all(self.atoms.ranks[atom][0] >= Rank.RATE for mono in poly for atom, _ in mono)
+
+    def _has_rates(self, poly: Polynomial) -> bool:
+        """Whether there is a rate in each term."""
+        return all(any(self.atoms.ranks[atom][0] >= Rank.RATE for atom, _ in mono) for mono in poly)
 
     def primitive(self, poly: Polynomial) -> tuple[Rational, Monomial, Polynomial]:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""

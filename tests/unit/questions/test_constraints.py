@@ -114,7 +114,7 @@ def test_the_equations_without_multipliers_are_written_out() -> None:
     """m v̇ along the blade, with what drives it in this direction (by hand)."""
     text = find("knife-edge").read_text(encoding="utf-8").replace("lambda]", "lambda, reduced]")
     rows, told = reduced_rows(text)
-    assert rows == ["m (cos(φ) ẍ + sin(φ) ÿ) = f₂ sin(φ) + f₁ cos(φ)", "J φ̈ = τ₃"]
+    assert rows == ["m cos(φ) ẍ + m sin(φ) ÿ = f₂ sin(φ) + f₁ cos(φ)", "J φ̈ = τ₃"]
     assert "0 by" not in told
 
 
