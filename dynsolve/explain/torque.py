@@ -87,13 +87,12 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
         ),
     )
     force, resisted = driving_row(context.robot, q), [letters.friction(i)] * context.has_friction(i - 1)
-    left = sum_of([rate, Negative(by_coordinate), *resisted])
     end = ending(context, f"tau{i}", {f"tau{i}": (force,)}, Way((), cancelling(context, q)))
     yield step(
         id=f"tau{i}",
         title=f"Coordinate {i}: the {'torque' if turns(q) else 'force'}",
         why=(*driven, *how_collected(context)),
-        formula=equation(force, left, rate) if is_force else equation(force, left),
+        formula=equation(force, sum_of([rate, Negative(by_coordinate), *resisted])),
         **asdict(end),
         detail=Detail.BRIEF,
         normal=STATED,
