@@ -266,7 +266,7 @@ def definiteness(robot: Robot, candidate: Candidate) -> Definiteness | Skipped:
     if work(matrix) > MOST_WORK:
         return Skipped(f"the leading minors of {candidate.name} are too long")
     moves = any(not matrix.ring.diff(entry, 0).is_zero for entry in matrix.entries)
-    least = cache(lambda value: _open(value, candidate.assumed))
+    least = cache(lambda value, known: _open(value, candidate.assumed, known))
     left: list[_Left] = []
     skipped: list[Skipped] = []
     for order in _orders(matrix):
@@ -305,9 +305,12 @@ def _length(left: _Left) -> tuple[bool, int, int]:
 _Least = tuple[tuple[Extreme, ...], Extreme | None] | None
 
 
-def _open(value: Expr, assumed: Sequence[Bound]) -> _Least:
-    """What value > 0 needs beyond what is assumed, and what of it fails; None where that is not found."""
-    extremes = smallest(value, assumed)
+def _open(value: Expr, assumed: Sequence[Bound], known: Sequence[Bound]) -> _Least:
+    """What value > 0 needs beyond what is assumed, and what of it fails; None where that is not found.
+
+    What is `known` is needed by minors before it.
+    """
+    extremes = smallest(value, (*assumed, *known))
     if extremes is None:
         return None
     left = tuple(one for one in extremes if not follows(one.bound, assumed))
@@ -315,7 +318,7 @@ def _open(value: Expr, assumed: Sequence[Bound]) -> _Least:
 
 
 def _in_order(
-    candidate: Candidate, order: tuple[int, ...], least: Callable[[Expr], _Least]
+    candidate: Candidate, order: tuple[int, ...], least: Callable[[Expr, tuple[Bound, ...]], _Least]
 ) -> Definiteness | _Left | Skipped:
     """What the leading minors say, the rows and columns taken in an order."""
     matrix, name = candidate.matrix, candidate.name
@@ -324,10 +327,10 @@ def _in_order(
     left: list[Extreme] = []
     for size, minor in enumerate(minors, 1):
         value = _over(minor, minors[: size - 1])
-        known = least(value)
-        if known is None:
+        smallest_value = least(value, tuple(one.bound for one in left if one.needed))
+        if smallest_value is None:
             return Skipped(f"the smallest value of the {size}×{size} minor of {name} is not found")
-        extremes, failing = known
+        extremes, failing = smallest_value
         if failing is not None:
             refused = replace(found, answer=Answer.NO, refusal=Refusal.INDEFINITE)
             return replace(refused, extreme=failing, size=size, is_whole=value == minor)

@@ -217,6 +217,7 @@ def test_a_minor_that_touches_0_off_the_right_angles_is_not_positive(matrix: str
         (of_three("a + b*d + c*d^2"), "if c > 0"),  # b = c = 0 will do as well
         (of_three("a + b*d + d^2"), "exactly if 4a - b² > 0"),
         (of_three("a", "b*cos(q2)"), "exactly if a - b² > 0"),
+        (file("[[J + m*(d - h)^2, m*h, 0], [m*h, m, 0], [0, 0, 1]]"), "exactly if m > 0 and J - m h² > 0"),
     ],
 )
 def test_what_is_only_enough_is_not_said_to_be_needed(text: str, word: str) -> None:
