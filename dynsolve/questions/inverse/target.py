@@ -8,6 +8,7 @@ these numbers, configurations are looked for in numbers.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property
 from itertools import groupby
@@ -17,9 +18,10 @@ from typing import TYPE_CHECKING
 from msgspec import Struct, field
 from msgspec.structs import replace
 
+from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
-from dynsolve.algebra.ring_values import evaluate
+from dynsolve.algebra.ring_values import build_ring, evaluate, value_of
 from dynsolve.algebra.surds import (
     DIGITS,
     Exact,
@@ -41,6 +43,7 @@ from dynsolve.explain.writing import agreeing, listed
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.tree import (
     ZERO,
+    Arguments,
     Degrees,
     Function,
     Negative,
@@ -244,7 +247,7 @@ class TargetForms:
             found.set_free(name, place)
         for name, formula in branch.items():
             try:
-                found.put(name, formula)
+                found.put(name, formula, self.written)
             except Undetermined:
                 found.set_free(name, place)
             except NoValue as error:
@@ -322,12 +325,14 @@ class BranchValues(Struct):
     exact: dict[str, Exact]
     free: dict[str, float] = field(default_factory=dict)
 
-    def put(self, name: str, formula: Node) -> None:
+    def put(self, name: str, formula: Node, written: Mapping[str, Node]) -> None:
         """Work out one coordinate, exactly where that goes."""
         try:
             value = exact_value(formula, self.exact)
         except NotExact:
             self.numbers[name] = number_of(formula, self.numbers)
+            with suppress(AlgebraError):
+                self.exact[name] = exact_value(with_numbers(formula, written, self.exact), self.exact)
         else:
             self.exact[name], self.numbers[name] = value, float(value)
 
@@ -345,9 +350,29 @@ def with_numbers(formula: Node, written: Mapping[str, Node], exact: Mapping[str,
         try:
             return exact_value(part, exact).node
         except AlgebraError:
-            return _folded(written.get(part.name, part) if isinstance(part, Symbol) else part)
+            part = _folded(written.get(part.name, part) if isinstance(part, Symbol) else part)
+            return part if names_in(part) else _of_constants(part)
 
     return mapped(formula, put)
+
+
+def _of_constants(part: Node) -> Node:
+    """A sum in sines and cosines of 20° as its number, the direction of a point with such as that angle."""
+    turned = [one for one in walk(part) if isinstance(one, Function) and one.name in ("sin", "cos")]
+    with suppress(AlgebraError):
+        match part:
+            case Sum() if turned:
+                value = value_of(build_ring([], [part]), part)
+                return Number(value.number.numerator, value.number.denominator) if value.is_number else part
+            case Function("atan2", Arguments((y, x))):
+                for angle in dict.fromkeys(one.argument for one in turned):
+                    both = [Function(name, angle) for name in ("sin", "cos")]
+                    ring = build_ring([], [y, x, *both])
+                    above, along, sine, cosine = (value_of(ring, one) for one in (y, x, *both))
+                    length = along * cosine + above * sine
+                    if above * cosine == along * sine and is_positive(length):
+                        return angle
+    return part
 
 
 def _folded(part: Node) -> Node:

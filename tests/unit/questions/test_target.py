@@ -40,6 +40,8 @@ EXACT = [
     (TWO, "[1, l1]", "q1: atan2(3, 4), q2: pi/2 | q1: pi/2, q2: -pi/2"),
     (UNIT, "[sqrt(2), 0]", "q1: -pi/4, q2: pi/2 | q1: pi/4, q2: -pi/2"),
     (UNIT, "[2, 0]", "q1: 0, q2: 0"),
+    (UNIT, "[2*cos(20deg), 2*sin(20deg)]", "q1: pi/9, q2: 0"),
+    (UNIT, "[sqrt(2)*cos(20deg), sqrt(2)*sin(20deg)]", "q1: -5*pi/36, q2: pi/2 | q1: 13*pi/36, q2: -pi/2"),
     (TWO, "[cos(0), 2 + sin(0) - tan(0)]", "q1: atan2(3, 4), q2: pi/2 | q1: pi/2, q2: -pi/2"),
     (CROSSED, "[1, 2, 0]", "q1: atan2(3, 4), q2: pi/2, q3: atan2(-3, 4) | q1: pi/2, q2: -pi/2, q3: -pi/2"),
     (UNIT, "[0, 0]", "q2: pi"),
