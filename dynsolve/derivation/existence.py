@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
-from itertools import product
+from itertools import permutations, product
+from operator import mul
 from typing import Any
 
 from dynsolve.algebra.angles import Angle, name_alone, names_of
@@ -85,11 +86,13 @@ def is_seen(values: Sequence[Expr], signs: ParameterSigns) -> bool:
     Those in which the same coordinates stand are looked at together, without what has a coordinate of its own
     and is 0 somewhere whatever the others are.  They are 0 where no angle stands in two
     of their swings, where they are so at quarter turns without lengths, whatever the parameters, or where one
-    stands alone and is positive somewhere and negative elsewhere, or the square of a length less a number.
+    stands alone and is positive somewhere and negative elsewhere, or a quadratic in a length,
+    or where one swings along a line on which the other is 0.
     """
     return all(
         _swing_apart(group, signs)
         or any(True for _ in zeros_at_quarters(group))
+        or _swings_along(group, signs)
         or (len(group) == 1 and (quadratic_of(group[0]) is not None or _changes_sign(group[0], signs)))
         for group in map(partial(_without_solved, signs=signs), _apart(values))
     )
@@ -160,6 +163,29 @@ def _swing_apart(values: Sequence[Expr], signs: ParameterSigns) -> bool:
     return len(known) == len(values) and any(
         _are_apart(left, signs) and {*bounds}.issubset(enough) for left, bounds in _choices(known, signs)
     )
+
+
+def _swings_along(values: Sequence[Expr], signs: ParameterSigns) -> bool:
+    """Whether one of two values is 0 on a line, along which the other swings about 0: q₂ = n q₁."""
+    for line, value in permutations(values) if len(values) == 2 else ():
+        ring, names, swings = value.ring, coordinates_in(line), _swings(value)
+        factors = [ring.coefficient(line, name) for name in names]
+        rest = line - sum(map(mul, factors, map(ring.symbol, names)), start=ring.zero)
+        if swings is None or len(names) != 2 or any(map(ring.depends_on_coordinates, (*factors, rest))):
+            continue
+        along = dict(zip(names, (factors[1], -factors[0]), strict=True))
+        rates = [
+            sum(
+                (along[name] * (times * rate)
+                 for times, pair in zip(multiples, _turning(ring), strict=True)
+                 for atom, rate in pair.angle.terms if (name := name_alone(atom)) in along),
+                start=ring.zero,
+            )
+            for multiples in swings
+        ]  # fmt: skip
+        if rates and all(signs.is_positive(rate) or signs.is_positive(-rate) for rate in rates):
+            return True
+    return False
 
 
 def _are_apart(known: Sequence[Swings], signs: ParameterSigns) -> bool:
