@@ -4,8 +4,8 @@ Prose is a sequence of words, formulas and what somebody typed; a block is a hea
 displayed formula, a list, a note, a table or a fold of further blocks.  Renderers
 in `dynsolve.render` turn documents into what a person sees.
 
-`sentences` writes prose as it is read; `figures` has drawings as data, before `dynsolve.draw` makes pictures
-of them.
+`sentences` writes prose as it is read; `books` has the books that references name, and their editions;
+`figures` has drawings as data, before `dynsolve.draw` makes pictures of them.
 
 To add a kind of block, add its dataclass here and its case to each renderer.
 """

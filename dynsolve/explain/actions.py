@@ -15,21 +15,12 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.derivation import actions
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.document import Inline, Prose
+from dynsolve.document.books import siciliano, spong
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, WORKED, Detail, Part, Step
 from dynsolve.explain.working.identities import product_named
-from dynsolve.explain.writing import (
-    counted_sum,
-    is_small,
-    listed,
-    measured,
-    name_of,
-    siciliano,
-    side_by_side,
-    spong,
-    sum_of,
-)
+from dynsolve.explain.writing import counted_sum, is_small, listed, measured, name_of, side_by_side, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import number_in_front, times, total
 from dynsolve.notation.template import formula

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose, Reference
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.matrix_factors import factored
@@ -24,7 +25,7 @@ from dynsolve.explain.working.identities import (
     used_in_product,
 )
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity, turned
-from dynsolve.explain.writing import name_of, spong, sum_of
+from dynsolve.explain.writing import name_of, sum_of
 from dynsolve.notation.build import number_in_front
 from dynsolve.notation.tree import ZERO, Node, Parenthesized, Product, equation
 from dynsolve.quantities import letters

@@ -11,13 +11,14 @@ from msgspec.structs import asdict, replace
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.euler_lagrange import agreement
 from dynsolve.document import Prose, Reference
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.named_steps import ending_of_symbols, label_of
 from dynsolve.explain.step import NOTED, TOLD, Detail, Line, Step
 from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate, slopes, varying
 from dynsolve.explain.working.identities import Identity, identities, said
-from dynsolve.explain.writing import counted_sum, is_small, listed, spong
+from dynsolve.explain.writing import counted_sum, is_small, listed
 from dynsolve.notation.build import split_sign, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (

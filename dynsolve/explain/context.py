@@ -13,8 +13,9 @@ from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.euler_lagrange import Agreement
 from dynsolve.derivation.graph import Derivation
+from dynsolve.document.books import craig, spong
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.writing import are_counted, craig, machine, spong
+from dynsolve.explain.writing import are_counted, machine
 from dynsolve.notation import tree
 from dynsolve.notation.characters import split
 from dynsolve.notation.printing import Style, decimal_text

@@ -9,6 +9,7 @@ from msgspec.structs import asdict, replace
 from dynsolve.algebra.angles import name_alone
 from dynsolve.derivation.kinematics import joint_frame
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import acting_steps, potential_steps
 from dynsolve.explain.context import Context
@@ -38,7 +39,6 @@ from dynsolve.explain.writing import (
     listed,
     name_of,
     side_by_side,
-    spong,
     sum_of,
 )
 from dynsolve.notation.build import split_sign

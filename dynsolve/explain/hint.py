@@ -13,13 +13,14 @@ from collections.abc import Iterable, Iterator
 from textwrap import dedent
 
 from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Prose, Table, Text
+from dynsolve.document.books import by_itself
 from dynsolve.document.sentences import Value, say
 from dynsolve.errors import UsageError
 from dynsolve.explain import explain
 from dynsolve.explain.actions import said_of_laws
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import and_joined, by_itself, is_small, listed
+from dynsolve.explain.writing import and_joined, is_small, listed
 from dynsolve.notation.tree import Node, Symbol, equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import link_frame
 from dynsolve.document import Prose, Reference
+from dynsolve.document.books import GIVEN, LYNCH_PARK, spong
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
@@ -23,16 +24,7 @@ from dynsolve.explain.parameter_meanings import SHAPES, letters_of, shape_letter
 from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.step import TOLD, Detail, Group, Part, Step
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
-from dynsolve.explain.writing import (
-    GIVEN,
-    LYNCH_PARK,
-    is_small,
-    listed,
-    measured,
-    name_of,
-    side_by_side,
-    spong,
-)
+from dynsolve.explain.writing import is_small, listed, measured, name_of, side_by_side
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ZERO,

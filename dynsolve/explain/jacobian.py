@@ -16,6 +16,7 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.kinematics import axis, joint_frame, origin
 from dynsolve.document import Prose, Reference
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.matrix_factors import factored, matrix_width
@@ -29,7 +30,6 @@ from dynsolve.explain.writing import (
     is_small,
     listed,
     side_by_side,
-    spong,
     sum_of,
     turns,
 )

@@ -10,12 +10,13 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation import link_frame
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose, Reference, Table
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.last_frame import by_halves
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Part, Step
 from dynsolve.explain.working.identities import product_named
-from dynsolve.explain.writing import is_small, listed, name_of, side_by_side, spong, turns
+from dynsolve.explain.writing import is_small, listed, name_of, side_by_side, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Degrees,

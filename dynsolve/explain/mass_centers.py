@@ -9,6 +9,7 @@ from msgspec import Struct
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Prose
+from dynsolve.document.books import GEOMETRY, GIVEN, spong
 from dynsolve.document.sentences import say
 from dynsolve.errors import ReadError
 from dynsolve.explain.context import Context
@@ -18,7 +19,7 @@ from dynsolve.explain.parameter_meanings import SHAPES
 from dynsolve.explain.step import TOLD, WORKED, Detail, Line, Part, Step
 from dynsolve.explain.working.identities import product_named
 from dynsolve.explain.working.rotational import factor_of_identity
-from dynsolve.explain.writing import GEOMETRY, GIVEN, block_of, is_small, name_of, spong
+from dynsolve.explain.writing import block_of, is_small, name_of
 from dynsolve.notation.build import number_in_front
 from dynsolve.notation.template import formula
 from dynsolve.notation.text import read

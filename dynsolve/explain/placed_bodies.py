@@ -12,6 +12,7 @@ from msgspec.structs import asdict, replace
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import acting_steps
 from dynsolve.explain.context import Context
@@ -20,7 +21,7 @@ from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.named_steps import Ending, ending
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.identities import SILENT, Way
-from dynsolve.explain.writing import flat, is_small, listed, name_of, spong, sum_of
+from dynsolve.explain.writing import flat, is_small, listed, name_of, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula

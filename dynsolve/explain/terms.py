@@ -19,6 +19,7 @@ from msgspec import Struct
 
 from dynsolve.algebra.ring import Expr
 from dynsolve.document import Inline, Prose, Reference, Table
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.christoffel import equal_symbols
@@ -27,7 +28,7 @@ from dynsolve.explain.entry_formulas import collected, collected_coriolis_force,
 from dynsolve.explain.forms import entry_of
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.writing import listed, spong, sum_of
+from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import cost, summands, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (

@@ -8,6 +8,7 @@ from functools import partial
 from msgspec.structs import asdict
 
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.named_steps import ending
@@ -15,7 +16,7 @@ from dynsolve.explain.step import STATED, Detail, Group, Part, Step
 from dynsolve.explain.terms import driving_row
 from dynsolve.explain.working.derivatives import cancelling, coordinate_derivative, momentum_rate
 from dynsolve.explain.working.identities import Way, new_angles
-from dynsolve.explain.writing import listed, spong, sum_of, turns
+from dynsolve.explain.writing import listed, sum_of, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Negative, Symbol, equation, number
 from dynsolve.quantities import letters

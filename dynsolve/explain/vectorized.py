@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from msgspec.structs import asdict, replace
 
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import angular_name, linear_name, part_steps, sum_step
 from dynsolve.explain.christoffel import SKEW, SLOPES, agreement_step, christoffel_step, skew_step
@@ -23,7 +24,6 @@ from dynsolve.explain.writing import (
     are_counted,
     counted_sum,
     listed,
-    spong,
     sum_of,
     sum_over_coordinates,
     turns,

@@ -10,7 +10,6 @@
     numeric         a result as a NumPy function, or as SymPy
     json_export     everything as JSON
     documents       a solution as a document: stages, steps, numbers, its summary
-    books           the books that a report names, and their editions
     leading         which steps lead to what is asked
     depths          what a depth shows of the steps, and which equations before it a step uses
     reports         that document as text, LaTeX, PDF, HTML or Markdown, and in a notebook

@@ -37,6 +37,7 @@ from dynsolve.document import (
     Text,
     rewritten,
 )
+from dynsolve.document.books import GAUTIER_KHALIL, KHALIL_DOMBRE, cited, of_second_edition, titled
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
@@ -45,15 +46,7 @@ from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notati
 from dynsolve.explain.signs import formulas_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
 from dynsolve.explain.terms import ID, rows_in_names
-from dynsolve.explain.writing import (
-    GAUTIER_KHALIL,
-    KHALIL_DOMBRE,
-    is_small,
-    listed,
-    machine,
-    measured,
-    side_by_side,
-)
+from dynsolve.explain.writing import is_small, listed, machine, measured, side_by_side
 from dynsolve.notation.printing import Style
 from dynsolve.notation.rounding import is_rounded, marked, marked_among_words
 from dynsolve.notation.tree import (
@@ -80,7 +73,6 @@ from dynsolve.quantities.owners import heading_of, stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
 from dynsolve.robot.model import Robot
-from dynsolve.solution.books import cited, of_second_edition, titled
 from dynsolve.solution.depths import Drawn, Shown
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.leading import leading

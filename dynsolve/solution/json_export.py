@@ -19,8 +19,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.document import Inline, Prose, Reference, Verbatim
+from dynsolve.document.books import by_itself
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.writing import by_itself
 from dynsolve.notation.build import times
 from dynsolve.notation.markup import LatexPrinter
 from dynsolve.notation.python import PythonPrinter

@@ -93,9 +93,9 @@ class Solution(Dynamics, frozen=True, dict=True):
         'Hint: the Lagrangian'
         """
         from dynsolve.document import rewritten
+        from dynsolve.document.books import of_second_edition
         from dynsolve.explain.context import Context
         from dynsolve.explain.hint import hint_document
-        from dynsolve.solution.books import of_second_edition
 
         context = Context(self.robot, self.values, self.forms, normals=self.problem.normals)
         document = hint_document(self.problem.title, context, stage)

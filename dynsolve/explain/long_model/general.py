@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.derivation.rules import course_rules
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import gravity_given
 from dynsolve.explain.christoffel import SLOPES
@@ -27,7 +28,7 @@ from dynsolve.explain.last_frame import halves
 from dynsolve.explain.long_model.inertia_entry import brief_step, kinetic_step
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.writing import side_by_side, spong
+from dynsolve.explain.writing import side_by_side
 from dynsolve.notation import tree
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (

@@ -12,6 +12,7 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.kinematics import dh_matrix, joint_frame, linear_jacobian, origin, rotation
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.differentiation import product_of
@@ -22,7 +23,7 @@ from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.recurring import expanded_once
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.identities import new_angles
-from dynsolve.explain.writing import listed, side_by_side, spong
+from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, total
 from dynsolve.notation.template import formula

@@ -9,6 +9,7 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.kinematics import axis, joint_frame
 from dynsolve.document import Prose, Reference
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.abbreviations import Abbreviated, as_shown
 from dynsolve.explain.christoffel import SLOPES, in_slopes
@@ -28,7 +29,7 @@ from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.vectorized import checked, coriolis, direct, from_energies, gravity, inertia, rest
 from dynsolve.explain.working.derivatives import coriolis_sums
 from dynsolve.explain.working.identities import Way, new_angles
-from dynsolve.explain.writing import listed, spong
+from dynsolve.explain.writing import listed
 from dynsolve.notation import tree
 from dynsolve.notation.build import negated, split_sign, summands, times
 from dynsolve.notation.template import formula

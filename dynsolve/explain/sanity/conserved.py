@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dynsolve.derivation.kinematics import joint_frame
 from dynsolve.document import Prose, Reference
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import pairs
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import driving_row, driving_side
-from dynsolve.explain.writing import listed, spong, sum_of, turns
+from dynsolve.explain.writing import listed, sum_of, turns
 from dynsolve.notation.build import cost
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (

@@ -17,6 +17,7 @@ from dynsolve.algebra import matrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose, Reference
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.named_steps import looked_at
@@ -29,7 +30,7 @@ from dynsolve.explain.sanity.determinant import (
     said_of,
 )
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.writing import listed, spong, sum_of
+from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import cost, factors_of, times
 from dynsolve.notation.tree import (
     ZERO,

@@ -20,6 +20,7 @@ from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.differentiation import product_of
@@ -27,7 +28,7 @@ from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.identities import Identity, are_alike, equals, identities, said
 from dynsolve.explain.working.squares import without_signs
-from dynsolve.explain.writing import listed, spong
+from dynsolve.explain.writing import listed
 from dynsolve.notation.build import cost, factors_of, negated, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (

@@ -8,11 +8,12 @@ from __future__ import annotations
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.kinematics import axis, joint_frame
 from dynsolve.document import Prose, Reference
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.determinant import sign_of
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import listed, spong, turns
+from dynsolve.explain.writing import listed, turns
 from dynsolve.notation.tree import ZERO, Relation, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate, JointType

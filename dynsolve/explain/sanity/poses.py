@@ -12,13 +12,14 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.kinematics import joint_frame
 from dynsolve.document import Inline, Prose, Reference, Table
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import linear_name
 from dynsolve.explain.context import Context
 from dynsolve.explain.named_steps import looked_at
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.derivatives import numbers_in
-from dynsolve.explain.writing import and_joined, is_small, listed, measured, side_by_side, spong, sum_of
+from dynsolve.explain.writing import and_joined, is_small, listed, measured, side_by_side, sum_of
 from dynsolve.notation.build import cost
 from dynsolve.notation.tree import (
     ZERO,

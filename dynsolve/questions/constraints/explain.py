@@ -16,6 +16,7 @@ from dynsolve.derivation.allowed import NOT_SHOWN
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.document import Prose
+from dynsolve.document.books import mls
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
@@ -29,7 +30,7 @@ from dynsolve.explain.terms import (
     moving_side,
     with_force_letters,
 )
-from dynsolve.explain.writing import is_small, listed, mls, scalar
+from dynsolve.explain.writing import is_small, listed, scalar
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ONE,

@@ -12,11 +12,12 @@ from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.step import NOTED, Detail, Step
-from dynsolve.explain.writing import listed, spong
+from dynsolve.explain.writing import listed
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Function, Letter, Node, Number, Relation, Symbol, equation
 from dynsolve.quantities import letters

@@ -17,22 +17,13 @@ from dynsolve.derivation.existence import coordinates_in, quadratic_of, zeros_at
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
+from dynsolve.document.books import GOLDSTEIN, SLOTINE_LI, spong
 from dynsolve.document.sentences import Value, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms, ProductForms
 from dynsolve.explain.given import in_units
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
-from dynsolve.explain.writing import (
-    GOLDSTEIN,
-    SLOTINE_LI,
-    and_joined,
-    as_row,
-    is_small,
-    listed,
-    scalar,
-    side_by_side,
-    spong,
-)
+from dynsolve.explain.writing import and_joined, as_row, is_small, listed, scalar, side_by_side
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ONE,

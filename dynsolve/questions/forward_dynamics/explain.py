@@ -10,6 +10,7 @@ from dynsolve.algebra.lowest_terms import is_decided
 from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.algebra.ring_values import build_ring
 from dynsolve.derivation.graph import Skipped
+from dynsolve.document.books import LYNCH_PARK
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step, not_derived
@@ -19,7 +20,7 @@ from dynsolve.explain.terms import (
     motors_prose,
     with_force_letters,
 )
-from dynsolve.explain.writing import LYNCH_PARK, is_small
+from dynsolve.explain.writing import is_small
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Number, Quotient, Symbol, equation, mapped
 from dynsolve.quantities import letters

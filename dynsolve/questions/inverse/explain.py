@@ -13,11 +13,12 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.configurations import Conditions
 from dynsolve.derivation.singular.zeros import never_hold
 from dynsolve.document import Prose, Table
+from dynsolve.document.books import craig, spong
 from dynsolve.document.sentences import opened, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, RESUMED, Detail, Line, Step
 from dynsolve.explain.step import Part as Shown
-from dynsolve.explain.writing import agreeing, and_joined, craig, listed, spong, turns
+from dynsolve.explain.writing import agreeing, and_joined, listed, turns
 from dynsolve.notation.build import cost, power, split_sign, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (

@@ -18,6 +18,7 @@ from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.derivation import actions
 from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import friction_steps, stored_steps
 from dynsolve.explain.context import MOST_JOINTS, Context
@@ -25,7 +26,7 @@ from dynsolve.explain.named_steps import ending
 from dynsolve.explain.step import Detail, Group, Line, Step
 from dynsolve.explain.terms import driving_row
 from dynsolve.explain.torque import how_collected
-from dynsolve.explain.writing import is_small, listed, side_by_side, spong, sum_of, turns
+from dynsolve.explain.writing import is_small, listed, side_by_side, sum_of, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Letter,

@@ -21,10 +21,11 @@ from dynsolve.algebra.ring_values import with_symbols
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.link_frame import accelerations
 from dynsolve.document import Prose
+from dynsolve.document.books import SLOTINE_LI, spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
-from dynsolve.explain.writing import SLOTINE_LI, listed, scalar, spong
+from dynsolve.explain.writing import listed, scalar
 from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (

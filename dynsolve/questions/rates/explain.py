@@ -10,12 +10,13 @@ from dynsolve.algebra.linear_systems import is_solvable, rank_parts
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import Value, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import of_task
 from dynsolve.explain.step import TOLD, Detail, Part, Step
-from dynsolve.explain.writing import column_of, is_small, listed, side_by_side, spong
+from dynsolve.explain.writing import column_of, is_small, listed, side_by_side
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ONE, ZERO, Node, Parenthesized, Power, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters

@@ -13,12 +13,13 @@ from dynsolve.derivation.existence import is_seen
 from dynsolve.derivation.reached import angle_rows
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.figures import ArmArrow, ArmFigure
 from dynsolve.document.sentences import Value, opened, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step, not_derived
 from dynsolve.explain.working.identities import SILENT
-from dynsolve.explain.writing import agreeing, and_joined, listed, spong, turns
+from dynsolve.explain.writing import agreeing, and_joined, listed, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, Words, equation
 from dynsolve.quantities import letters

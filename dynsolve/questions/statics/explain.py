@@ -9,13 +9,14 @@ from msgspec.structs import replace
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import Value, opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import vector
 from dynsolve.explain.kinematics import turned
 from dynsolve.explain.step import NOTED, Detail, Group, Step
-from dynsolve.explain.writing import agreeing, flat, is_small, listed, spong, sum_of
+from dynsolve.explain.writing import agreeing, flat, is_small, listed, sum_of
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Negative, Node, Number, Symbol, equation
 from dynsolve.quantities import letters

@@ -11,12 +11,13 @@ from dynsolve.algebra.matrix import determinant
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
+from dynsolve.document.books import spong
 from dynsolve.document.sentences import Value, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
 from dynsolve.explain.working.identities import SILENT, Identity, Way, by, identities, said, used_in_product
-from dynsolve.explain.writing import agreeing, and_joined, is_small, listed, spong, sum_over_coordinates
+from dynsolve.explain.writing import agreeing, and_joined, is_small, listed, sum_over_coordinates
 from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (

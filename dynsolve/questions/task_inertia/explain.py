@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from dynsolve.algebra.linear_systems import adjugate, quotient
 from dynsolve.algebra.matrix import determinant
 from dynsolve.derivation.graph import Skipped
+from dynsolve.document.books import LYNCH_PARK
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step, not_derived
-from dynsolve.explain.writing import LYNCH_PARK, as_row, is_small, scalar
+from dynsolve.explain.writing import as_row, is_small, scalar
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Negative, Node, Number, Power, equation
 from dynsolve.quantities import letters

@@ -83,7 +83,7 @@ def build(values, spring):
 ''',
     "explain": '''"""What is told of springs of constant torque."""
 
-from dynsolve.explain.writing import measured
+from dynsolve.explain.writing import (measured)
 from dynsolve.notation.build import negated, times
 
 

@@ -12,8 +12,8 @@ from functools import lru_cache
 import pytest
 
 from dynsolve.document import Document, Text
+from dynsolve.document.books import BOOKS, CRAIG, GEOMETRY, GIVEN, LYNCH_PARK, SPONG, spong
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import BOOKS, CRAIG, GEOMETRY, GIVEN, LYNCH_PARK, SPONG, spong
 from dynsolve.render.line_breaking import formulas
 from tests.support import STEMS, document, solved
 

@@ -84,7 +84,7 @@ def verify_sum(robot, results, states):
     "explain": '''"""The step of each body."""
 
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import spong
+from dynsolve.document.books import spong
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import equation
 from dynsolve.quantities.index import quantities

@@ -13,9 +13,9 @@ import sympy
 
 import dynsolve
 from dynsolve.document import Document, Fold, Formula, Text
+from dynsolve.document.books import SPONG
 from dynsolve.errors import ExplanationWarning, ProblemError, UsageError, VerificationError
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import SPONG
 from dynsolve.notation.text import read
 from dynsolve.problem import read_problem
 from dynsolve.problem.reader import bundled, find
