@@ -604,6 +604,15 @@ def _minors(m: Mechanism, s: Sentence) -> bool:
     return True in seen
 
 
+@says("{} is not 0: its discriminant is negative.")
+def _has_one_sign(m: Mechanism, s: Sentence) -> bool:
+    let = [node for text, nodes in s.before() if text.startswith("Let ") for node in nodes]
+    values = [m.value(s.formulas[0], p) for p in m.points(60) if all(m.holds(node, p) for node in let)]
+    if not values:
+        raise Unknown
+    return min(values) * max(values) > 0
+
+
 @says("... Of its two directions the one with a positive {} is taken.")
 @says("Of its two directions the one with a positive {} is taken.")
 def _turns_forwards(m: Mechanism, s: Sentence) -> bool:
