@@ -27,8 +27,8 @@ CONDITIONAL = (
     "Checks", "Given", "What decouples", "equilibri", "configurations:", "conditions for balance:",
     "cannot hold", "inverse kinematics:", "equations without multipliers:",
     "Frames from the drawing", "has solutions where", "stable", "do not decide",
-    "depend on the configuration", "Summary > At", " holds where", " hold where", "holds only where",
-    "hold only where", "solution only where", "solutions",
+    "depend on the configuration", "has no inverse", "Summary > At", " holds where", " hold where",
+    "holds only where", "hold only where", "solution only where", "solutions",
     "Singular", "Inverse", "Rates ", "Statics", "Forces from outside", "Equilib", "Balance", "Linearization",
     "Constraints", "Inertia matrices",  # stages, at a pose or a state of their own
 )  # fmt: skip

@@ -16,6 +16,7 @@ from msgspec.structs import replace
 import dynsolve
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.compact.proof import Proof
+from dynsolve.algebra.ring import Expr
 from dynsolve.document import Formula
 from dynsolve.errors import InputError
 from dynsolve.explain.abbreviations import Abbreviate, Exchange
@@ -142,12 +143,12 @@ def test_a_compact_form_of_another_value_is_found(quantity: str, monkeypatch: py
     """Where neither the proof of the form nor the verification of the results would find it."""
     value = dynsolve.solve(ELBOW).values[quantity]
     entries = value.values() if isinstance(value, dict) else getattr(value, "entries", (value,))
-    wrong_one = str(next(entry for entry in entries if not entry.is_number).poly)
+    wrong_one = next(entry for entry in entries if not entry.is_number)
     collected = Compactor._collected
 
-    def wrong(self: Compactor, text: str) -> Node:
-        form = collected(self, text)
-        return times(3, [(form, 1)]) if text == wrong_one else form
+    def wrong(self: Compactor, expr: Expr) -> Node:
+        form = collected(self, expr)
+        return times(3, [(form, 1)]) if expr.poly == wrong_one.poly else form
 
     monkeypatch.setattr(Compactor, "_collected", wrong)
     monkeypatch.setattr(Proof, "holds", lambda self, expr, form: True)
