@@ -34,7 +34,18 @@ from dynsolve.explain.parameter_meanings import angles_in, names_in
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, factors_of, negated, number_in_front, split_sign, times, total
 from dynsolve.notation.printing import decimal_text
-from dynsolve.notation.tree import ZERO, Function, Negative, Node, Number, Power, Product, Symbol, walk
+from dynsolve.notation.tree import (
+    ZERO,
+    Function,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Symbol,
+    walk,
+)
 from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
@@ -111,7 +122,8 @@ class Forms:
             if quantity is not None and quantity.family in (families.P_BODY, families.P):
                 found = _without_minus(found, self.spelled)
             elif quantity is not None and quantity.family in _ENERGIES:
-                found = _with_squares_first(_without_minus(number_in_front(found)), self.robot.ring.names)
+                found = found if isinstance(found, Quotient) and self._decimal else number_in_front(found)
+                found = _with_squares_first(_without_minus(found), self.robot.ring.names)
             self._made[name] = found
         return found
 
@@ -224,10 +236,13 @@ class Forms:
                 factors = [(entry, 1), *rates_of_pair(names, j, k)]
                 terms.append(times(1 if j == k else 2, factors, decimal=True))
             inner = total(terms)
+        if isinstance(inner, Quotient) and isinstance(inner.denominator, Number):  # m l² q̇²/4
+            return times(Fraction(1, 2 * inner.denominator.p), [(inner.numerator, 1)])
         first, *others = factors_of(inner)
         # ½·8 q̇² and, beside letters, ½ (1/12) m q̇² are one number
         is_exact = isinstance(first, Number) and decimal_text(first.p, first.q) is None
-        if isinstance(first, Number) and (first.q == 1 or (is_exact and not self.robot.is_numeric)):
+        has_letters = not tree.names_in(inner).isdisjoint(ring.parameters)
+        if isinstance(first, Number) and (first.q == 1 or (is_exact and has_letters)):
             return times(Fraction(first.p, 2 * first.q), [(factor, 1) for factor in others], decimal=True)
         return Product((letters.HALF, *factors_of(inner)))
 

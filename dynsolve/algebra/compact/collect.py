@@ -34,7 +34,16 @@ from dynsolve.algebra.compact.terms import (
     rational_root,
     whole_content,
 )
-from dynsolve.notation.build import cost, number_in_front, plus_first, split_sign, summands, times, total
+from dynsolve.notation.build import (
+    QUARTERS,
+    cost,
+    number_in_front,
+    plus_first,
+    split_sign,
+    summands,
+    times,
+    total,
+)
 from dynsolve.notation.tree import (
     ONE,
     ZERO,
@@ -295,7 +304,19 @@ class Collector:
                     factor, atoms[place] = Fraction(1, 2), (half, 2)
                     break
         atoms.sort(key=lambda item: self.atoms.ranks[item[0]])
-        return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms], decimal=self.decimal)
+        decimal = self.decimal and not self._is_half_of_letters(factor, atoms)
+        return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms], decimal=decimal)
+
+    def _is_half_of_letters(self, factor: Rational, atoms: Iterable[tuple[int, int]]) -> bool:
+        """Whether a half, a quarter or an eighth that nobody typed is beside letters: m l/2."""
+        is_typed = not self.typed or abs(factor) in self.typed
+        letters = (Rank.LEADING, Rank.PARAMETER)
+        return (
+            factor.denominator in QUARTERS
+            and abs(factor.numerator) == 1
+            and not is_typed
+            and any(self.atoms.ranks[atom][0] in letters for atom, _ in atoms)
+        )
 
     def _of_fractions(self, atom: int) -> Polynomial:
         """The terms of a sum with fractions in it; none of any other atom."""

@@ -173,7 +173,7 @@ dh: [{theta: q*, a: l, alpha: 90deg}]
 masses: [{mass: m, link: 1, center: [-l/2, 0.1, 0], inertia: {xx: A, yy: B, zz: C}, about: origin}]
 find: [K]
 """
-    assert "½ (B - 0.25 m l²) q̇²" in page(link, Detail.FULL)
+    assert "½ (B - m l²/4) q̇²" in page(link, Detail.FULL)
 
 
 TRAILER = """
