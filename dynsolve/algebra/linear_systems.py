@@ -211,14 +211,15 @@ def basis(like: Matrix, vectors: Sequence[Sequence[Expr]], height: int) -> Matri
 
 
 def primitive(vector: Sequence[Expr]) -> list[Expr]:
-    """A vector over what its entries share, in whole numbers, the first that is not 0 with a positive one."""
+    """A vector over what its entries share, in integers; its first number, or else entry, is positive."""
     some = [entry for entry in vector if not entry.is_zero]
     if not some:
         return list(vector)
     rests = iter(without_shared(some))
     divided = [entry if entry.is_zero else next(rests) for entry in vector]
-    leading = next(entry for entry in divided if not entry.is_zero).poly.leading_coefficient()
-    number = content(divided) * (1 if leading > 0 else -1)
+    some = [entry for entry in divided if not entry.is_zero]
+    leading = next((entry for entry in some if entry.is_number), some[0])
+    number = content(divided) * (1 if leading.poly.leading_coefficient() > 0 else -1)
     return [entry * (1 / number) for entry in divided]
 
 

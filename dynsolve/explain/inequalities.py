@@ -6,10 +6,9 @@ from functools import lru_cache
 from typing import Any
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.compact.terms import whole_content
 from dynsolve.algebra.factors import is_positive, ratio, trig_factors, trig_quotient
 from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.linear_systems import content
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.explain.forms import ProductForms, leading_names, parallel_coordinates
 from dynsolve.notation.build import cost
@@ -35,7 +34,7 @@ class Inequalities:
         """A value compared with 0: what is positive of it on one side, what is negative on the other.
 
         A positive factor that both sides share is left out, but not of matrices to be judged, whose
-        parameters may be negative.
+        parameters may be negative; and so is a number.
         """
         ring = value.ring
         has_both = len({factor < 0 for factor in value.poly.coeffs()}) == 2
@@ -43,6 +42,8 @@ class Inequalities:
             for shared, exponent in trig_factors(value):
                 if is_positive(shared):
                     value = trig_quotient(value, shared**exponent) or value
+        if not self.robot.has_decimals:
+            value = value / content([value])
         left, right = self._apart(value)
         products = ProductForms(self.compactor(ring))
         squares = [products.form(one * one) for one in _squared(value)]
@@ -85,5 +86,5 @@ def _squared(value: Expr) -> list[Expr]:
     found = [one + other, one - other]
     if sum(map(len, found)) > max(len(one), len(other)):  # nothing in common
         return []
-    shared = whole_content([fraction(number) for part in found for number in part.poly.coeffs()])
+    shared = content(found)
     return [part / shared for part in (found if sign == value.ring.one else found[::-1])]
