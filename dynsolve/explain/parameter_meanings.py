@@ -154,21 +154,32 @@ def roles(robot: Robot) -> dict[str, tuple[AnyRole, str]]:
     dimensions, at_state = _dimensions(robot), units_of_values(robot)
     acting = (one for act in robot.actions.acts for one in act.parameters(robot) if one.unit)
     of_acts = {name: one.unit for one in acting for name in names_in(one.value) if _factor(one.value, name)}
-    pairs = (pair.angle for pair in robot.ring.pairs)
-    angles = frozenset(name for angle in pairs for name in names_of(angle))
+    in_angles = dict(_units_in_angles(robot))
 
     def unit(name: str, role: AnyRole) -> str:
         own = dimensions.get(name) or at_state.get(name, "")
         if isinstance(role, Acting):
             return of_acts.get(name, own) if name in dimensions else own
-        is_angle = role is Role.OTHER and not own and name in angles
-        return "rad" if is_angle or role in (Role.TURN, Role.DOWN, Role.DIRECTION) else own
+        if role is Role.OTHER and not own:
+            return in_angles.get(name, "")
+        return "rad" if role in (Role.TURN, Role.DOWN, Role.DIRECTION) else own
 
     def told(name: str) -> AnyRole:
         own = found.get(name, Role.OTHER)
         return own if own is not Role.POSITION or dimensions.get(name) == "m" else Role.OTHER
 
     return {name: (told(name), unit(name, told(name))) for name in robot.parameters}
+
+
+def _units_in_angles(robot: Robot) -> Iterator[tuple[str, str]]:
+    """Units of the parameters in angles: rad of one by itself, m of ρ in x/ρ."""
+    lengths = {q.name for q in robot.coordinates if q.type is JointType.PRISMATIC}
+    for atom in (atom for pair in robot.ring.pairs for atom, _ in pair.angle.terms):
+        own = [(name, exponent) for name, exponent in atom if name in robot.parameters]
+        if len(own) == 1:
+            ((name, exponent),) = own
+            is_length = sum(power for other, power in atom if other in lengths) == -exponent
+            yield name, "rad" if len(atom) == 1 else "m" * is_length
 
 
 def units_of_values(robot: Robot) -> dict[str, str]:

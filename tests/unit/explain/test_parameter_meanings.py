@@ -213,3 +213,15 @@ EXPRESSIONS_TOLD = {
     "R": "inverse of the ratio of a gear ()",
     "r": "inverse of the ratio of a gear (m)",
 }
+
+
+def test_what_turns_a_length_into_an_angle_is_a_length() -> None:
+    text = """
+gravity: none
+model:
+  coordinates: {x: prismatic, q: revolute}
+  bodies:
+    - {mass: m, at: [x, 0, 0], turn: x/rho + n*q + delta, inertia: {zz: J}}
+"""
+    found = meanings(solved(text).robot)
+    assert [found[name][1] for name in ("rho", "n", "delta")] == ["m", "", "rad"]
