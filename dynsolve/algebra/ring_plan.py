@@ -49,13 +49,14 @@ _TRIAL_BOUND = 10_000
 class ConstantPlan(Struct, frozen=True):
     """Which generators the constant angles and the roots of a problem need.
 
-    `generator_degrees` is δ where cos δ is one; `primes` are those whose square
-    roots are; `pairs` the degrees of angles that bring a pair of their own.
+    `generator_degrees` is δ where cos δ is one, of `written` angles below 90°; `primes` are those whose
+    square roots are; `pairs` the degrees of angles that bring a pair of their own.
     """
 
     generator_degrees: Fraction | None = None
     primes: tuple[int, ...] = ()
     pairs: tuple[Fraction, ...] = ()
+    written: frozenset[Fraction] = frozenset()
 
     def holds_root(self, value: Fraction) -> bool:
         """Whether the root of a positive number is made of these generators."""
@@ -68,7 +69,7 @@ def plan_constants(degrees: Iterable[Fraction], radicands: Iterable[Fraction]) -
     """The smallest plan for these constant angles and these numbers under a root.
 
     >>> plan_constants([Fraction(90), Fraction(30)], [])
-    ConstantPlan(generator_degrees=None, primes=(3,), pairs=())
+    ConstantPlan(generator_degrees=None, primes=(3,), pairs=(), written=frozenset())
     """
     primes = {p for r in radicands for p in square_free_primes(r.numerator * r.denominator)[1]}
     odd = {d % _QUARTER for d in degrees} - {Fraction(0)}
@@ -76,15 +77,16 @@ def plan_constants(degrees: Iterable[Fraction], radicands: Iterable[Fraction]) -
     if simple != odd:
         delta = rational_gcd([*odd, _QUARTER])
         if _totient(int(360 / delta)) // 2 <= LARGEST_DEGREE:
-            return ConstantPlan(delta, tuple(sorted(p for p in primes if not _in_field(p, delta))))
+            others = tuple(sorted(p for p in primes if not _in_field(p, delta)))
+            return ConstantPlan(delta, others, written=frozenset(odd))
     for d in simple:
         primes |= {2} if d == 45 else {3} if d % 30 == 0 else {2, 3}
-    others = sorted({min(d, _QUARTER - d) for d in odd - simple})
-    if others:
-        shared = rational_gcd(others)
-        if others[-1] / shared <= LARGEST_MULTIPLE:
-            others = [shared]
-    return ConstantPlan(None, tuple(sorted(primes)), tuple(others))
+    pairs = sorted({min(d, _QUARTER - d) for d in odd - simple})
+    if pairs:
+        shared = rational_gcd(pairs)
+        if pairs[-1] / shared <= LARGEST_MULTIPLE:
+            pairs = [shared]
+    return ConstantPlan(None, tuple(sorted(primes)), tuple(pairs))
 
 
 def square_free_primes(n: int) -> tuple[int, tuple[int, ...]]:
@@ -277,7 +279,7 @@ class RingPlan(Struct, frozen=True):
         vectors = integer_basis([*offsets, *(vector for vector, _ in split)])
         degrees = [*(angle.degrees for angle in more.angles), *constants.pairs]
         if constants.generator_degrees is not None:
-            degrees.append(constants.generator_degrees)
+            degrees += [constants.generator_degrees, *constants.written]
         if any(d % 90 for d in degrees) or more.radicands:
             constants = plan_constants(degrees, [*map(Fraction, constants.primes), *more.radicands])
         old_roots = self.roots[len(self.constants.primes) :]

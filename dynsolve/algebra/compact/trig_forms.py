@@ -31,7 +31,7 @@ Angles that turn about parallel axes, together: only they combine in sums like �
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import combinations, product
 from math import comb, inf
@@ -344,15 +344,18 @@ _KNOWN: dict[Fraction, tuple[TrigMonomial, Fraction]] = {
 
 
 class ConstantForms:
-    """Writes polynomials {(k,): factor} in powers of cos δ; δ in degrees.
+    """Writes polynomials {(k,): factor} in powers of cos δ, by sines and cosines of `written` angles.
+
+    Angles are in degrees.
 
     >>> ten = ConstantForms(Fraction(10))
     >>> ten({(3,): 4, (1,): -3})
     [{((('sqrt', (3,)), 1),): Fraction(1, 2)}]
     """
 
-    def __init__(self, delta: Fraction) -> None:
+    def __init__(self, delta: Fraction, written: Collection[Fraction] = ()) -> None:
         self.delta = delta
+        self.written = written
         halves = fmpz_poly.cos_minpoly(int(360 / delta))
         self._relation = fmpq_poly(halves)(fmpq_poly([0, 2]))
         self._degree = int(halves.degree())
@@ -383,11 +386,14 @@ class ConstantForms:
         return fmpq_poly(fmpz_poly.chebyshev_t(j))
 
     def _name(self, j: int) -> tuple[TrigMonomial, Fraction]:
-        """cos jδ as it is written: by a root, or as the sine of the complement above 45°."""
+        """cos jδ by a root, or of an angle that is written, or as the sine of the complement above 45°."""
         angle = self.delta * j
         if angle in _KNOWN:
             return _KNOWN[angle]
-        if angle > 45:
+        is_sine = angle > 45
+        if (angle in self.written) != (90 - angle in self.written):
+            is_sine = angle not in self.written
+        if is_sine:
             return ((("sin", (int(90 / self.delta) - j,)), 1),), Fraction(1)
         return ((("cos", (j,)), 1),), Fraction(1)
 
@@ -423,7 +429,7 @@ def angle_groups(ring: Ring, parallel: Iterable[Iterable[str]] = ()) -> list[Ang
         for pairs in _parallel_pairs(ring, parallel)
     ]
     constant = [
-        AngleGroup([g.angle], [g.index], ConstantForms(g.angle.degrees))
+        AngleGroup([g.angle], [g.index], ConstantForms(g.angle.degrees, ring.plan.constants.written))
         for g in ring.generators
         if g.kind == "constant"
     ]

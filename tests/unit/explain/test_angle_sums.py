@@ -52,3 +52,10 @@ model:
 """
     forms = solved(rolling).forms
     assert to_unicode(forms.matrix("R1").rows[0][0]) == "cos(θ - x/R)"
+
+
+@pytest.mark.parametrize("degrees", [50, 40, 72])
+def test_an_angle_in_degrees_stays_the_one_that_was_written(degrees: int) -> None:
+    forms = solved(f"dh: [{{theta: q1*, alpha: {degrees}deg}}, {{d: q2*, alpha: -{degrees}deg}}]").forms
+    row = [to_unicode(entry) for entry in forms.matrix("A1").rows[2]]
+    assert row == ["0", f"sin({degrees}°)", f"cos({degrees}°)", "0"]
