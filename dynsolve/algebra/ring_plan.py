@@ -42,6 +42,7 @@ LARGEST_MULTIPLE = 6
 """Up to this multiple of it, constant angles share one pair of generators."""
 
 _QUARTER = Fraction(90)
+_HALF = Fraction(180)
 _FIFTEEN = Fraction(15)
 _TRIAL_BOUND = 10_000
 
@@ -72,13 +73,14 @@ def plan_constants(degrees: Iterable[Fraction], radicands: Iterable[Fraction]) -
     ConstantPlan(generator_degrees=None, primes=(3,), pairs=(), written=frozenset())
     """
     primes = {p for r in radicands for p in square_free_primes(r.numerator * r.denominator)[1]}
-    odd = {d % _QUARTER for d in degrees} - {Fraction(0)}
+    turned = {min(d % _HALF, -d % _HALF) for d in degrees if d % _QUARTER}
+    odd = {d % _QUARTER for d in turned}
     simple = {d for d in odd if d % _FIFTEEN == 0}
     if simple != odd:
         delta = rational_gcd([*odd, _QUARTER])
         if _totient(int(360 / delta)) // 2 <= LARGEST_DEGREE:
             others = tuple(sorted(p for p in primes if not _in_field(p, delta)))
-            return ConstantPlan(delta, others, written=frozenset(odd))
+            return ConstantPlan(delta, others, written=frozenset(turned))
     for d in simple:
         primes |= {2} if d == 45 else {3} if d % 30 == 0 else {2, 3}
     pairs = sorted({min(d, _QUARTER - d) for d in odd - simple})

@@ -56,6 +56,6 @@ model:
 
 @pytest.mark.parametrize("degrees", [50, 40, 72])
 def test_an_angle_in_degrees_stays_the_one_that_was_written(degrees: int) -> None:
-    forms = solved(f"dh: [{{theta: q1*, alpha: {degrees}deg}}, {{d: q2*, alpha: -{degrees}deg}}]").forms
+    forms = solved(f"dh: [{{theta: q1*, alpha: {degrees}deg}}, {{d: q2*, alpha: -{degrees}deg}}]\n").forms
     row = [to_unicode(entry) for entry in forms.matrix("A1").rows[2]]
     assert row == ["0", f"sin({degrees}°)", f"cos({degrees}°)", "0"]
