@@ -43,7 +43,9 @@ LARGEST_MULTIPLE = 6
 
 _QUARTER = Fraction(90)
 _HALF = Fraction(180)
-_FIFTEEN = Fraction(15)
+_BY_ROOTS = {Fraction(30), Fraction(45), Fraction(60)}
+"""Angles whose sines and cosines are written with one root."""
+
 _TRIAL_BOUND = 10_000
 
 
@@ -75,14 +77,14 @@ def plan_constants(degrees: Iterable[Fraction], radicands: Iterable[Fraction]) -
     primes = {p for r in radicands for p in square_free_primes(r.numerator * r.denominator)[1]}
     turned = {min(d % _HALF, -d % _HALF) for d in degrees if d % _QUARTER}
     odd = {d % _QUARTER for d in turned}
-    simple = {d for d in odd if d % _FIFTEEN == 0}
+    simple = odd & _BY_ROOTS
     if simple != odd:
         delta = rational_gcd([*odd, _QUARTER])
         if _totient(int(360 / delta)) // 2 <= LARGEST_DEGREE:
             others = tuple(sorted(p for p in primes if not _in_field(p, delta)))
             return ConstantPlan(delta, others, written=frozenset(turned))
     for d in simple:
-        primes |= {2} if d == 45 else {3} if d % 30 == 0 else {2, 3}
+        primes.add(2 if d == 45 else 3)
     pairs = sorted({min(d, _QUARTER - d) for d in odd - simple})
     if pairs:
         shared = rational_gcd(pairs)
@@ -159,7 +161,7 @@ class ConstantAngles(Struct, frozen=True):
             return ctx.constant(1), ctx.constant(0)
         if self.generator is not None:
             return self._multiple(rest, ctx), self._multiple(_QUARTER - rest, ctx)
-        if rest % _FIFTEEN == 0:
+        if rest in _BY_ROOTS:
             return self._simple_cos(rest, ctx), self._simple_cos(_QUARTER - rest, ctx)
         small = min(rest, _QUARTER - rest)
         for i, shared in reversed(list(enumerate(self.plan.pairs))):  # the fewest turns
@@ -184,12 +186,8 @@ class ConstantAngles(Struct, frozen=True):
                 return ctx.constant(fmpq(1, 2))
             case 30:
                 return self._prime(3) / 2
-            case 45:
-                return self._prime(2) / 2
-            case 15:
-                return self._prime(2) * (self._prime(3) + 1) / 4
             case _:
-                return self._prime(2) * (self._prime(3) - 1) / 4
+                return self._prime(2) / 2
 
     def _prime(self, p: int) -> fmpq_mpoly:
         found = self.root(p)
