@@ -9,7 +9,7 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property, partial, reduce
 from math import comb, lcm, prod
@@ -183,11 +183,11 @@ class Forms:
                 return self._momentum_in_decimals(value)
             if quantity.family in _KINETIC:
                 return self._kinetic_in_decimals(value)
-            if self.robot.actions.stored and name == "g":
-                return tree.column(*(self._beside_springs(entry, k) for k, entry in enumerate(entries)))
-            if self.robot.actions.stored and quantity.family in (families.FORCE, families.DLDQ):
-                sign = 1 if quantity.family is families.FORCE else -1
-                return self._beside_springs(value, quantity.index[0] - 1, sign)
+        if self.robot.actions.stored and name == "g":
+            return tree.column(*(self._beside_springs(entry, k) for k, entry in enumerate(entries)))
+        if self.robot.actions.stored and quantity and quantity.family in (families.FORCE, families.DLDQ):
+            sign = 1 if quantity.family is families.FORCE else -1
+            return self._beside_springs(value, quantity.index[0] - 1, sign)
         if name == "tau":
             return tree.column(*(self(f"tau{q.index}") for q in self.robot.coordinates))
         if name == "L":
@@ -216,12 +216,31 @@ class Forms:
         return total([times(1, [(slope, 1), (rate, 1)], decimal=True) for slope, rate in terms])
 
     def _beside_springs(self, force: Expr, k: int, sign: int = 1) -> Node:
-        """A force with 250 (z - 0.4) as a term, whose number is not added to a weight."""
+        """A force with a term for each spring with a rest position: k (x₂ - x₁ - a) - k (x₃ - x₂ - a).
+
+        The number of 250 (z - 0.4) is not added to a weight.
+        """
+        pulls = list(self._pulls(k, sign))
+        if len({along for along, _, _ in pulls}) > 1:
+            for _, pull, _ in pulls:
+                force = force - pull
+            return total([self.of(force), *(printed for _, _, printed in pulls)])
         springs = force.ring.diff(self.values["Ps"], k) * sign
         rest = force - springs
-        if (0,) * len(force.ring.generators) in set(rest.poly.monoms()) & set(springs.poly.monoms()):
+        numbers = {(0,) * len(force.ring.generators)}
+        if self.robot.has_decimals and numbers <= {*rest.poly.monoms()} & {*springs.poly.monoms()}:
             return total([self.of(rest), self.of(springs)])
         return self.of(force)
+
+    def _pulls(self, k: int, sign: int) -> Iterator[tuple[Expr, Expr, Node]]:
+        """(x, force, the force as printed) of each spring with a rest position that pulls coordinate k."""
+        for act in self.robot.actions.stored:
+            pull = act.energy.ring.diff(act.energy, k) * sign
+            for along, at_rest in act.differences:
+                size = pull.quotient(along - at_rest)
+                if size and not pull.is_zero and not at_rest.is_zero:
+                    deflection = total([self.of(along), negated(self.of(at_rest))])
+                    yield along, pull, times(1, [(self.of(size), 1), (deflection, 1)], decimal=self._decimal)
 
     def _kinetic_in_decimals(self, energy: Expr) -> Node:
         """½ (d_11 q̇_1² + 2 d_12 q̇_1 q̇_2 + …), each d_kj as it is rounded elsewhere; 0 of no energy."""

@@ -132,6 +132,14 @@ springs: [{stiffness: 250, of: z, rest: 0.4}]
     assert to_unicode(forms("tau1")) == "0.5 z̈ + 4.905 + 250(z - 0.4)"
 
 
+def test_each_of_several_springs_has_its_own_pull() -> None:
+    row = "gravity: none\ndh: [{d: q1*}, {d: q2*}]\nmasses: [{mass: m1, link: 1}, {mass: m2, link: 2}]\n"
+    springs = "springs: [{stiffness: k, of: q1, rest: a}, {stiffness: 2*k, of: q2 - q1, rest: b}]\n"
+    forms = solved(row + springs).forms
+    assert to_unicode(forms("dLdq1")) == "2k (q₂ - q₁ - b) - k (q₁ - a)"
+    assert to_unicode(forms.matrix("g").rows[0][0]) == "k (q₁ - a) - 2k (q₂ - q₁ - b)"
+
+
 @pytest.mark.parametrize(
     ("springs", "energy"),
     [
