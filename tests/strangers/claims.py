@@ -1202,7 +1202,7 @@ Along what the constraints leave free, the columns of {} with {}, the energy is 
 Where that is positive definite, the equilibrium is stable; where the energy falls in some direction, it is
   not.
 How stable <they|the others> are is not told here.
-All this is without Coulomb friction, which can hold what is not stable.
+All this is without Coulomb friction[, which can hold what is not stable].
 The same is so for special parameters.
 Along the axis of a joint the force, where it slides, or the moment, where it turns, is what drives it.
 Section # has ....

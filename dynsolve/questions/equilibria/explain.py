@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import isclose
 
@@ -22,6 +22,7 @@ from dynsolve.document.sentences import Value, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms, ProductForms
 from dynsolve.explain.given import in_units
+from dynsolve.explain.sanity.determinant import sign_of
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
 from dynsolve.explain.writing import and_joined, as_row, is_small, listed, scalar, side_by_side
 from dynsolve.notation.template import formula
@@ -106,7 +107,8 @@ MOST_ZEROS = 8
 """More zeros of an equation in numbers are not told."""
 
 _COULOMB = "Coulomb friction is left out: wherever it holds, there is rest, too."
-_NOT_HELD = "All this is without Coulomb friction, which can hold what is not stable."
+_NOT_HELD = "All this is without Coulomb friction{held}."
+_CAN_HOLD = ", which can hold what is not stable"
 _CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
 _DEPENDENT = formula("[𝐀_c; 𝐠ᵀ]")
 _NEVER_HELD = "Where all of them are 0, the rows of $𝐀_c$ are dependent and there is no $𝛌$."
@@ -276,8 +278,8 @@ def _besides(context: Context, shown: EquilibriaForms, found: Equilibria) -> Ite
     if found.may_be_others:
         yield ("For special values of the parameters there may be others.",)
     yield from _without_multipliers(shown, found)
-    if slid := _held_by_friction(shown.robot):
-        yield _rest(context, shown, slid)
+    if (slid := _held_by_friction(shown.robot)) and (rest := _rest(context, shown, slid)):
+        yield rest
 
 
 def _held_by_friction(robot: Robot) -> dict[int, Expr]:
@@ -294,7 +296,7 @@ def _held_by_friction(robot: Robot) -> dict[int, Expr]:
 
 
 def _rest(context: Context, shown: EquilibriaForms, slid: Mapping[int, Expr]) -> Prose:
-    """Where Coulomb friction holds: -μ ≤ m g l sin(q) ≤ μ."""
+    """Where Coulomb friction holds: -μ ≤ m g l sin(q) ≤ μ; nothing where it holds against nothing."""
     robot, form = shown.robot, shown.compactor(shown.robot.ring).form
     if robot.questions.constraints:
         return (_COULOMB,)
@@ -306,9 +308,18 @@ def _rest(context: Context, shown: EquilibriaForms, slid: Mapping[int, Expr]) ->
         else equation(form(force), Number(0))
         for k, force in balanced.items()
     ]
-    if not rest or not is_small(*rest):
+    if not balanced.keys() & slid.keys():
+        return ()
+    if not is_small(*rest):
         return (_COULOMB,)
     return say("With Coulomb friction the equilibria are where {rest}.", rest=as_row(listed(rest)))
+
+
+def _can_hold(context: Context, curvature: Matrix, slid: Collection[int]) -> bool:
+    """Whether what has no Coulomb friction is stable by itself, in every pose."""
+    free = [k for k in range(context.robot.n) if k not in slid]
+    alone = all(curvature[i, j].is_zero for i in free for j in free if i != j)
+    return alone and all(sign_of(context, curvature[k, k]) > 0 for k in free)
 
 
 def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
@@ -483,8 +494,12 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
         curvature = context.show(linearization.curvature(robot, forces))
         working = (*working, *([equation(second, curvature)] if is_small(curvature) else []))
     sentences = [*(_verdict(context, shown, found, *one) for one in told), *([more] if more else [])]
-    if _held_by_friction(robot) and any(point.stability is not Stability.STABLE for point, _ in told):
-        sentences.append((_NOT_HELD,))
+    slid = _held_by_friction(robot)
+    if slid and any(point.stability is not Stability.STABLE for point, _ in told):
+        holds = not robot.questions.constraints and _can_hold(
+            context, linearization.curvature(robot, forces), slid
+        )
+        sentences.append(say(_NOT_HELD, held=_CAN_HOLD if holds else ""))
     return Step(
         id="equilibria_stability",
         title="How stable they are",

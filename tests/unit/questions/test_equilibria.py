@@ -1102,6 +1102,14 @@ find: [equilibria]
     assert "the equilibria are where k x = 0 and -2μ ≤ m g l sin(q) ≤ 2μ." in told
     assert "not stable. All this is without Coulomb friction, which can hold what is not stable." in told
     assert "All this" not in read(pendulum.replace("-l*cos(q)", "0"))
+    on_the_slide = read(pendulum.replace("friction: {q:", "friction: {x:"))
+    assert "not stable. All this is without Coulomb friction." in on_the_slide, (
+        "the pendulum falls all the same"
+    )
+    loose = pendulum.replace("springs: [{stiffness: k, of: x}]\n", "").replace(
+        "friction: {q:", "friction: {x:"
+    )
+    assert "With Coulomb friction" not in read(loose), "nothing pulls at the slide"
     held = pendulum.replace("find:", "inputs: given\npassive: [x]\nfind:")
     assert "Coulomb" not in str(told_of(held).outcome)
 
