@@ -62,6 +62,8 @@ def _read_equilibrium(faults: Faults, node: YamlNode | None, kinds: Mapping[str,
     for name, dots in found.cells:
         if dots:
             faults.error(node.span, f"the rate of {name} is 0 in an equilibrium", help)
+    if not node.entries:
+        faults.error(node.span, "linearize has no coordinate", help)
     return found
 
 

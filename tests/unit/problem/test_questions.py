@@ -109,6 +109,7 @@ FAULTS = {
     "too few weights": ("weights: «[[1]]»", "is 2×2", "weights: {"),
     "weights that are not symmetric": ("weights: «[[1, 2], [0, 1]]»", "not symmetric", "positive"),
     "weights that are not positive": ("weights: «[[1, 2], [2, 1]]»", "not positive definite", "positive"),
+    "nothing to linearize at": ("linearize: «{}»", "linearize has no coordinate", "linearize: {"),
     "weights by inertia without masses": ("weights: «D»", "no body has mass", "weights: {"),
     "weights as a number": ("weights: «2»", "a mapping or a matrix", "weights: {"),
     "limits of no coordinate": ("limits: {«theta3»: [0, 1]}", "no coordinate", "theta"),
