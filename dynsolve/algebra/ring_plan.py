@@ -163,11 +163,19 @@ class ConstantAngles(Struct, frozen=True):
             return self._multiple(rest, ctx), self._multiple(_QUARTER - rest, ctx)
         if rest in _BY_ROOTS:
             return self._simple_cos(rest, ctx), self._simple_cos(_QUARTER - rest, ctx)
-        small = min(rest, _QUARTER - rest)
         for i, shared in reversed(list(enumerate(self.plan.pairs))):  # the fewest turns
-            if (small / shared).denominator == 1:
-                c, s = self.pair(i, int(small / shared))
-                return (c, s) if small == rest else (s, c)
+            found = [
+                (start + quarters * _QUARTER, quarters, start)
+                for start in (rest, _QUARTER - rest)
+                for quarters in range(4)
+                if ((start + quarters * _QUARTER) / shared).denominator == 1
+            ]
+            if found:
+                angle, quarters, start = min(found)
+                c, s = self.pair(i, int(angle / shared))
+                for _ in range(quarters):
+                    c, s = s, -c
+                return (c, s) if start == rest else (s, c)
         raise AlgebraError(f"the angle {float(rest)}° does not occur in the problem")
 
     def _multiple(self, angle: Fraction, ctx: fmpq_mpoly_ctx) -> fmpq_mpoly:

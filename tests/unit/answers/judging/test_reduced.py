@@ -39,7 +39,7 @@ def test_by_hand() -> None:
     """Along the blade; about the pivot of a pendulum in x and y."""
     blade = dynsolve.solve(BLADE).to_json()["results"]["reduced"]
     assert blade == [
-        "m*(cos(phi)*x_ddot + sin(phi)*y_ddot) = f2*sin(phi) + f1*cos(phi)",
+        "m*cos(phi)*x_ddot + m*sin(phi)*y_ddot = f2*sin(phi) + f1*cos(phi)",
         "J*phi_ddot = tau3",
     ]
     pendulum = dynsolve.solve(PENDULUM).to_json()["results"]["reduced"]

@@ -87,8 +87,26 @@ masses: [{mass: m1, link: 1, center: [x1, 0, 0]}]
 """
 
 
+SIX_TIMES = """
+title: lines with 6 · 17° = 90° + 12°
+gravity: [0, 0, -g]
+dh:
+  - {theta: q1*}
+  - {theta: 90deg, d: q2*, alpha: 17deg}
+  - {theta: q3* + 17deg}
+masses:
+  - {mass: m1, link: 1, center: origin, shape: {box: {x: b1, y: 0.2, z: 2*b1}}}
+  - mass: m2
+    link: 3
+    center: origin
+    shape: {hollow_cylinder: {outer: 0.3, inner: 0.1, length: r2, axis: x}}
+    axes: base
+"""
+
+
 @settings(max_examples=5, deadline=None)
 @example(problem=TILTED_TWICE)
+@example(problem=SIX_TIMES)
 @given(robots(max_joints=3))
 def test_every_line_of_any_robot_is_true_and_its_identities_are_named(problem: str) -> None:
     solution = dynsolve.solve(problem)
