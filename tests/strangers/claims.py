@@ -652,7 +652,7 @@ def _minor_is_zero(m: Mechanism, s: Sentence) -> bool:
     return near(m.value(told.parts[-1], here), m.value(value, here)) and m.value(value, here) <= 0
 
 
-@says("It depends on {&}, which no inertia matrix of a chain with relative coordinates does.")
+@says("It depends on the first coordinate, {&}; no inertia matrix of relative coordinates does.")
 def _matrix_depends(m: Mechanism, s: Sentence) -> bool:
     return m.changes(s.matrix, names_of(s.formulas))
 

@@ -81,7 +81,7 @@ def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped)
         assumed = say("Let {these}. ", these=_all_of(forms, candidate.assumed))
     notes: tuple[Prose, ...] = ()
     if found.moves_with_base and found.answer is not Answer.NO:
-        text = "It depends on {q}, which no inertia matrix of a chain with relative coordinates does."
+        text = "It depends on the first coordinate, {q}; no inertia matrix of relative coordinates does."
         notes = (say(text, q=Symbol(context.robot.coordinates[0].name)),)
     minors = [formula("Δ_{k} = {value}", k=k, value=forms.of(m)) for k, m in enumerate(found.minors, 1)]
     conclusion = _CONCLUSIONS[found.answer]

@@ -625,7 +625,7 @@ def _root(shown: EquilibriaForms, found: Equilibria, point: Point) -> str:
     values = [bound.value for bound in point.conditions]
     for one in (one for case in cases for one in case if len(values) == 1):
         if sign := shown.positive_root(one, values[0]):
-            return f", that is with {'+ and with -' if sign > 0 else '- and with +'}"
+            return f", in this order with {'+ and -' if sign > 0 else '- and +'}"
     return ""
 
 

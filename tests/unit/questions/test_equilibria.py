@@ -154,7 +154,7 @@ def test_a_quadratic_is_solved_and_each_root_is_judged() -> None:
     told = read(QUARTIC)
     assert "x = c/(2a) ± √(c² - 4a b)/(2a)" in told
     assert "Case 2 has solutions where c² ≥ 4a b." in told
-    apart = "In case 2: stable where c x > 2b, not stable where c x < 2b, that is with + and with -."
+    apart = "In case 2: stable where c x > 2b, not stable where c x < 2b, in this order with + and -."
     assert apart in told
 
 
@@ -169,7 +169,7 @@ def test_the_greater_root_of_a_falling_quadratic_is_not_stable() -> None:
     falling = QUARTIC.replace("a*x^4/4 + b*x^2/2 - c*x^3/3", "c*x + b*x^2/2 - a*x^3/3")
     told = read(falling)
     assert "x = b/(2a) ± √(4c a + b²)/(2a)" in told
-    assert "stable where b > 2a x, not stable where b < 2a x, that is with - and with +." in told
+    assert "stable where b > 2a x, not stable where b < 2a x, in this order with - and +." in told
 
 
 def test_what_has_a_coefficient_of_its_own_is_solved_for() -> None:
