@@ -217,7 +217,7 @@ class Compactor:
     def _outside_or_inside(self, terms: Terms, kind: tuple[int, int]) -> Node:
         split = split_at(terms, RATES)
         parts = self._grouped(self._monomials(split), self._coefficient)
-        if kind == (1, 0):
+        if kind == (1, 0) and len(terms) <= self._large:
             row = self.collector.side_by_side(parts)
             if self.collector.cost(row) <= LONG:
                 return row
