@@ -325,11 +325,8 @@ def _rolling(robot: Robot, body: Body) -> tuple[Matrix, Matrix, int | None]:
     spins, moves = angular_jacobian(robot, body), position_jacobian(robot, body.center)
     turning = [k for k in range(robot.n) if not spins.column_at(k).is_zero]
     lengths = [k for k in turning if robot.coordinates[k].type is JointType.PRISMATIC]
-    return (
-        spins,
-        moves,
-        next(iter([*lengths, *(k for k in turning if _is_straight(moves.column_at(k)))]), None),
-    )
+    straight = [k for k in turning if _is_straight(moves.column_at(k))]
+    return spins, moves, next(iter([*lengths, *straight]), None)
 
 
 def _is_straight(way: Matrix) -> bool:

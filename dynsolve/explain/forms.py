@@ -52,7 +52,7 @@ from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import Turn, parallel_groups, turned_otherwise
 from dynsolve.robot.model import Body, Convention, Robot
-from dynsolve.robot.typed_sums import printed_sums
+from dynsolve.robot.typed_sums import deflection, printed_sums
 
 LONG = 300
 """From this number of terms on a value is put together from parts."""
@@ -239,8 +239,8 @@ class Forms:
             for along, at_rest in act.differences:
                 size = pull.quotient(along - at_rest)
                 if size and not pull.is_zero and not at_rest.is_zero:
-                    deflection = total([self.of(along), negated(self.of(at_rest))])
-                    yield along, pull, times(1, [(self.of(size), 1), (deflection, 1)], decimal=self._decimal)
+                    factors = [(self.of(size), 1), (deflection(along, at_rest, self.of), 1)]
+                    yield along, pull, times(1, factors, decimal=self._decimal)
 
     def _kinetic_in_decimals(self, energy: Expr) -> Node:
         """½ (d_11 q̇_1² + 2 d_12 q̇_1 q̇_2 + …), each d_kj as it is rounded elsewhere; 0 of no energy."""

@@ -31,9 +31,9 @@ def printed_sums(robot: Robot, form: Callable[[Expr], Node]) -> Iterator[Sum]:
     """Deflections and typed sums, and the rates of these, in their order, each term in its printed `form`."""
     for act in robot.actions.stored:
         for one, other in act.differences:
-            deflection = total([form(one), negated(form(other))])
-            if isinstance(deflection, Sum):
-                yield deflection
+            difference = deflection(one, other, form)
+            if isinstance(difference, Sum):
+                yield difference
     for typed in robot.typed_sums:
         try:
             printed = total([form(value_of(robot.ring, term)) for term in typed.terms])
@@ -47,6 +47,11 @@ def printed_sums(robot: Robot, form: Callable[[Expr], Node]) -> Iterator[Sum]:
         yield printed
         if not _has_functions(typed) and all(names_in(term) & {*robot.ring.names} for term in terms):
             yield Sum(tuple(mapped(term, _rate) for term in terms))
+
+
+def deflection(one: Expr, other: Expr, form: Callable[[Expr], Node]) -> Node:
+    """x₂ - x₁ - δ: what acts along x₂ - x₁ and is at rest at δ, each as printed by itself."""
+    return total([form(one), negated(form(other))])
 
 
 def _has_functions(node: Node) -> bool:
