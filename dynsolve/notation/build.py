@@ -105,7 +105,8 @@ def total(terms: Sequence[Node]) -> Node:
         return ZERO
     if len(flat) == 1:
         return flat[0]
-    return Sum(tuple(flat if _moves_once(flat[0]) else plus_first(flat)))
+    stays = not isinstance(flat[0], Negative) or _moves_once(flat[0])
+    return Sum(tuple(flat if stays else plus_first(flat)))
 
 
 def plus_first(terms: Sequence[Node]) -> list[Node]:
