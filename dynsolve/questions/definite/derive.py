@@ -17,6 +17,7 @@ so one coordinate after the other is taken out.
     A + B u,  u a sine or cosine     smallest at u = 1 or u = -1
     A + B u²                         at u = 0 or u = ±1
     A + B u + C u²                   at u = ±1 where C ≤ 0, or its vertex lies outside; A - B²/(4C) inside
+    A + B u² + C u⁴                  the same of u² between 0 and 1
     A + B cos θ + C sin θ            A - √(B² + C²), so A > 0 and A² > B² + C²; A > |B| where C = 0
     A + B cos² θ + C sin θ cos θ     the same of 2θ
     A + B d + C d²,  d a length      A - B²/(4C), so C > 0 and 4AC > B²; also A > 0 where B = C = 0
@@ -131,12 +132,15 @@ def _without_angle(pair: Pair, extreme: Extreme, assumed: Sequence[Bound]) -> li
     keys = set(found)
     if keys <= {(0, 0)}:
         return [extreme]
+    if keys <= {(0, 0), (0, 2), (0, 4)}:
+        by_square = [found.get((0, 2 * k), zero) for k in range(3)]
+        return _in_one(extreme, pair.cosine, (0, 1), by_square, assumed)
     if keys <= {(0, 0), (0, 1), (0, 2)}:
-        return _in_one(extreme, pair.cosine, [found.get((0, k), zero) for k in range(3)], assumed)
+        return _in_one(extreme, pair.cosine, (1, -1), [found.get((0, k), zero) for k in range(3)], assumed)
     if keys <= {(0, 0), (1, 0), (0, 2)}:  # c² = 1 - s²
         squares = found.get((0, 2), zero)
         by_sine = [found.get((0, 0), zero) + squares, found.get((1, 0), zero), -squares]
-        return _in_one(extreme, pair.sine, by_sine, assumed)
+        return _in_one(extreme, pair.sine, (1, -1), by_sine, assumed)
     A, B, C = (found.get(key, zero) for key in ((0, 0), (0, 1), (1, 0)))
     if keys <= {(0, 0), (0, 2), (1, 1)}:  # in cos 2θ and sin 2θ
         B, C = found.get((0, 2), zero) / 2, found.get((1, 1), zero) / 2
@@ -152,23 +156,24 @@ def _without_angle(pair: Pair, extreme: Extreme, assumed: Sequence[Bound]) -> li
 
 
 def _in_one(
-    extreme: Extreme, u: int, coefficients: Sequence[Expr], assumed: Sequence[Bound]
+    extreme: Extreme, u: int, ends: tuple[int, int], coefficients: Sequence[Expr], assumed: Sequence[Bound]
 ) -> list[Extreme] | None:
-    """A + B u + C u² over -1 ≤ u ≤ 1."""
+    """A + B x + C x² between the ends of x, which is u or u²."""
     A, B, C = coefficients
-    strict = extreme.bound.is_strict
-    ends = [extreme.at(u, 1, Bound(A + B + C, strict)), extreme.at(u, -1, Bound(A - B + C, strict))]
-    if B.is_zero:
-        return [extreme.at(u, 0, Bound(A, strict)), ends[0]]
-    outside = (-C, B - C * 2, -B - C * 2)
-    if C.is_zero or any(follows(Bound(value, False), assumed) for value in outside):
-        return ends
+    strict, least = extreme.bound.is_strict, min(ends)
+    at_ends = [extreme.at(u, end, Bound(A + B * end + C * end**2, strict)) for end in ends]
+    outside = (-C, B + C * (2 * least), -B - C * 2)
+    if any(follows(Bound(value, False), assumed) for value in outside):
+        return at_ends
     over_roots = A * C * 4 - B * B
     if follows(Bound(over_roots), assumed) and follows(Bound(A), assumed):
         return []
-    inside = (C, C * 2 - B, C * 2 + B)
-    is_inside = all(follows(Bound(value, value is not C), assumed) for value in inside)
-    return [replace(extreme, bound=Bound(over_roots, strict))] if is_inside else None
+    inside = (C, C * 2 + B, -B - C * (2 * least))
+    if all(follows(Bound(value, value is not C), assumed) for value in inside):
+        return [replace(extreme, bound=Bound(over_roots, strict))]
+    if over_roots.ring.depends_on_coordinates(over_roots) or follows(Bound(-over_roots), assumed):
+        return None
+    return [*at_ends, replace(extreme, bound=Bound(over_roots, strict), needed=False)]
 
 
 # -- lengths ---------------------------------------------------------------------------------------
@@ -344,8 +349,9 @@ def _with_conditions(candidate: Candidate, left: _Left) -> Definiteness | Skippe
     needed: list[Bound] = []
     is_exact = True
     for extreme in left.extremes:
-        bound = simplified(extreme.bound, [*assumed, *needed])
-        if not follows(bound, needed):
+        for bound in _apart(simplified(extreme.bound, [*assumed, *needed])):
+            if follows(bound, needed):
+                continue
             if is_exact and extreme.needed and follows(opposite(bound), [*assumed, *needed]):
                 excluding = _excluding(needed, extreme.bound, assumed)
                 refused = replace(left.found, answer=Answer.NO, refusal=Refusal.INDEFINITE)
@@ -356,10 +362,26 @@ def _with_conditions(candidate: Candidate, left: _Left) -> Definiteness | Skippe
     if not conditions:
         return left.found
     some = _are_possible(matrix, (*assumed, *conditions))
-    if not some or not any(_are_possible(matrix, (*assumed, Bound(-one.value))) for one in conditions):
+    if not some or not any(_are_possible(matrix, (*assumed, opposite(one))) for one in conditions):
         which = "all the parameters that are assumed" if some else "some parameters"
         return Skipped(f"whether {name} is positive definite for {which} is not found")
     return replace(left.found, answer=Answer.IF, conditions=conditions, is_exact=is_exact)
+
+
+def _apart(bound: Bound) -> Iterator[Bound]:
+    """m l² > 0 as m > 0 and l² > 0."""
+    content, factors = bound.value.poly.factor()
+    if not bound.is_strict:
+        yield bound
+        return
+    ring = bound.value.ring
+    single = ring.one if content > 0 else -ring.one
+    for factor, times in factors:
+        if int(times) % 2:
+            single = single * Expr(ring, factor)
+    if single != ring.one:
+        yield Bound(single)
+    yield from (Bound(Expr(ring, factor) ** 2) for factor, times in factors if int(times) % 2 == 0)
 
 
 def _excluding(needed: Sequence[Bound], bound: Bound, assumed: Sequence[Bound]) -> tuple[Bound, ...]:

@@ -165,11 +165,11 @@ def _all_of(forms: Forms, bounds: tuple[Bound, ...]) -> Prose:
 
 
 def inequality(forms: Forms, bound: Bound) -> Relation:
-    """a₁a₃ - a₂² > 0, and b = 0 for -b² ≥ 0."""
+    """a₁a₃ - a₂² > 0; b = 0 for -b² ≥ 0, and b ≠ 0 for b² > 0."""
     content, factors = bound.value.poly.factor()
-    if not bound.is_strict and content < 0 and all(int(times) % 2 == 0 for _, times in factors):
+    if bound.is_strict == (content > 0) and all(int(times) % 2 == 0 for _, times in factors):
         one = prod((Expr(bound.value.ring, factor) for factor, _ in factors), start=bound.value.ring.one)
-        return equation(forms.of(one), ZERO)
+        return Relation((forms.of(one), ZERO), ("≠" if bound.is_strict else "=",))
     return Relation((forms.of(bound.value), ZERO), (">" if bound.is_strict else "≥",))
 
 

@@ -70,6 +70,13 @@ CONDITIONS = {
         file("[[a + b*d + b*d^2, 0, 0], [0, b, 0], [0, 0, 1]]", "[b > 0]"),
         ["4*a - b > 0"],
     ),
+    "a square": (of_three("m*a^2", "0", "[m > 0]"), ["a != 0"]),
+    "a square beside a letter": (of_three("m*a^2", "m*a*cos(q2)*b"), ["m > 0", "a != 0", "1 - b**2*m > 0"]),
+    "a square of a difference": (of_three("a^2 - 2*a*b + b^2"), ["a - b != 0"]),
+    "a parabola in a square": (
+        of_three("a - b*cos(q2)^2 + cos(q2)^4", "0", "[a > 0, b > 0]"),
+        ["1 + a - b > 0", "4*a - b**2 > 0"],
+    ),
     "a product on the diagonal": (
         file("[[a, b*sin(q1), 0], [b*sin(q1), c, 0], [0, 0, 1]]"),
         ["a > 0", "a*c - b**2 > 0"],
