@@ -357,6 +357,10 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None, before: Sequenc
             factors = [sine, cosine]
         case OneLine(_, cosine, sine, value) if not (cosine.is_zero or sine.is_zero):
             factors = [sine, cosine, value]
+        case OneLine(_, cosine, sine, value) if _moves_nothing(forms, step, cosine + sine):
+            factors = [cosine + sine, value]
+        case Length(_, factor, value) if _moves_nothing(forms, step, factor):
+            factors = [factor, value]
         case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
             factors = [factor for factor in (cosine, sine) if not factor.is_zero]
     if needed := [*_needed(forms, step)]:
@@ -371,6 +375,15 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None, before: Sequenc
     if factors and not never_hold(left):
         zeros = [equation(forms.vanishing(factor), Number(0)) for factor in left]
         yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
+
+
+def _moves_nothing(forms: InverseForms, step: Solved, divisor: Expr) -> bool:
+    """Whether a coordinate does not move the task where what it is divided by is 0."""
+    assert forms.solved is not None
+    ring, components = divisor.ring, forms.solved.solving.components
+    place = ring.names.index(step.coordinate)
+    slopes = [ring.diff(one.right, place) for one in components]
+    return not is_never_zero(divisor) and all(slope.quotient(divisor) is not None for slope in slopes)
 
 
 def _needed(forms: InverseForms, step: Solved) -> Iterator[Node]:

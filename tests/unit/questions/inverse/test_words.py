@@ -104,3 +104,10 @@ def test_what_special_parameters_alone_make_0_is_divided_by_before_a_square_has_
 def test_of_two_values_that_are_put_into_conditions_not_both_are_said_to_hold() -> None:
     text = told("dh: [{theta: 60deg, alpha: 90deg}, {d: d1*}, {theta: q2*, a: l, alpha: 90deg}]")
     assert "q₂ has two values: there are at most 2 solutions." in text
+
+
+def test_where_a_divisor_is_0_an_angle_that_moves_nothing_there_is_free() -> None:
+    """At q₃ = 0 the tip of the arm with an offset is on the axis of joint 2."""
+    text = told("dh: [{theta: q1*, alpha: -90deg}, {theta: q2*, d: h, alpha: 90deg}, {d: q3*}]")
+    assert "This needs q₃ ≠ 0." in text
+    assert "Where q₃ = 0 and r₃ = 0, q₂ is free: infinitely many solutions." in text
