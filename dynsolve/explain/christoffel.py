@@ -44,6 +44,10 @@ _I = Symbol("i")
 SLOPES = formula("(∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k)")
 """Twice c_ijk, by the derivatives of D."""
 
+CONSTANT = say("$𝐃$ is constant, so every Christoffel symbol is zero.")
+
+NO_CORIOLIS = formula("𝐂 = 𝟎")
+
 Slope = tuple[tuple[int, int], int]
 """((a, b), c) of ∂d_ab/∂q_c, a ≤ b, from 0."""
 
@@ -71,10 +75,12 @@ def christoffel_step(context: Context) -> Step:
         results[0] = Relation((*before, single.meaning, single.name), (*first.signs, NAMED))
         why = (*why, " The symbol ", before[0], " is named ", single.name, ".")
     end = ending_of_symbols(context, results, way)
+    is_asked = any(_is_asked(context, *ijk) for ijk in zero)
     return Step(
         id="christoffel",
         title="Christoffel symbols",
-        why=why if nonzero else say("$𝐃$ is constant, so every Christoffel symbol is zero."),
+        why=why if nonzero else CONSTANT,
+        said="" if nonzero else "constant",
         formula=formula("c_ijk = ½ {slopes}", slopes=SLOPES),
         source=spong("7.3"),
         **asdict(end),
@@ -83,7 +89,8 @@ def christoffel_step(context: Context) -> Step:
             "swapped, which halves the work.",
         ),
         notes=tuple(_zero_note(context, zero)) if nonzero else (),
-        normal=NOTED if any(_is_asked(context, *ijk) for ijk in zero) else TOLD,
+        normal=NOTED if is_asked else TOLD,
+        detail=Detail.NORMAL if nonzero or is_asked else Detail.FULL,
     )
 
 
@@ -271,7 +278,6 @@ def skew_step(context: Context) -> Step:
             step,
             why=say("$𝐃$ is constant, and $𝐂 = 𝟎$: nothing is left to be checked."),
             result=(formula("𝐍 = 𝟎"),),
-            outcome=say("$𝐃$ is constant, and $𝐂 = 𝟎$."),
             is_task=False,
         )
     result: tuple[Node, ...] = ()

@@ -225,14 +225,26 @@ _HELD = formula("𝐀_cᵀ 𝛌")
 def closing_step(context: Context) -> Step:
     """D q̈ + C q̇ + g = τ, with friction on the left, Q and A_cᵀ λ on the right where there are any."""
     robot = context.robot
-    names = ("D", "C", *robot.actions.resistance, "g")
+    of_rates = () if context.values["C"].is_zero else ("C",)
+    names = ("D", *of_rates, *robot.actions.resistance, "g")
     qd, qdd = (column(*(Symbol(q.name, dots) for q in robot.coordinates)) for dots in (1, 2))
     passive = robot.actions.passive
     forces = column(*(ZERO if k in passive else letters.force(q) for k, q in enumerate(robot.coordinates)))
     result: tuple[Node, ...] = ()
-    if context.is_short and all(matrix_width(context, context.matrix(name)) <= WIDEST for name in names):
-        parts = [context.result(name) for name in names]
-        left = Sum((Product((parts[0], qdd)), Product((parts[1], qd)), *parts[2:]))
+    if (
+        context.is_short
+        and robot.n > 1
+        and all(matrix_width(context, context.matrix(name)) <= WIDEST for name in names)
+    ):
+        times_rates = {"D": qdd, "C": qd}
+        left = Sum(
+            tuple(
+                Product((context.result(name), times_rates[name]))
+                if name in times_rates
+                else context.result(name)
+                for name in names
+            )
+        )
         result = (equation(left, sum_of([forces, *_beside_motors(context)])),)
     return Step(
         id=ID,

@@ -10,7 +10,15 @@ from dynsolve.document import Prose
 from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.body_parts import angular_name, linear_name, part_steps, sum_step
-from dynsolve.explain.christoffel import SKEW, SLOPES, agreement_step, christoffel_step, skew_step
+from dynsolve.explain.christoffel import (
+    CONSTANT,
+    NO_CORIOLIS,
+    SKEW,
+    SLOPES,
+    agreement_step,
+    christoffel_step,
+    skew_step,
+)
 from dynsolve.explain.context import Context
 from dynsolve.explain.named_steps import ending
 from dynsolve.explain.placed_bodies import inertia_step
@@ -220,24 +228,26 @@ def coriolis(context: Context, told: tuple[Prose, tuple[Node, ...]] | None = Non
         "makes {skew} skew-symmetric."
     )
     why = say(
-        "Row $k$, column $j$. $𝐂 𝐪̇$ holds the centrifugal terms (a rate squared){coriolis}.{outcome}",
+        "Row $k$, column $j$. $𝐂 𝐪̇$ holds the centrifugal terms (a rate squared){coriolis}.",
         coriolis=" and the Coriolis terms (a product of two rates)" if n > 1 else "",
-        outcome=" There are none here." if is_none else "",
     )
     why, result = told or (why, (formula("𝐂 = {C}", C=context.result("C")),))
+    sums = formula("c_kj = {symbols} = ½ {slopes}", symbols=by_symbols, slopes=by_slopes)
     return Step(
         id="C",
         title="The Coriolis matrix, from the Christoffel symbols",
-        why=why,
-        formula=formula("c_kj = {symbols} = ½ {slopes}", symbols=by_symbols, slopes=by_slopes),
+        why=CONSTANT if is_none else why,
+        said="constant" if is_none else "",
+        formula=None if is_none else sums,
+        task=sums,
         source=spong("7.3"),
         lines=coriolis_sums(context),
-        result=result,
+        result=(NO_CORIOLIS,) if is_none else result,
         hint=say(
             "Row $k$, column $j$: a sum over $i$. Multiplied by the rates it must give what you read off "
             "from the forces."
         ),
-        entries=() if context.is_in_letters else letters.entries("c", n),
+        entries=() if context.is_in_letters or is_none else letters.entries("c", n),
         notes=() if is_none or n == 1 else (say(others, skew=SKEW),),
         detail=Detail.BRIEF,
     )

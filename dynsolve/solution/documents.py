@@ -41,6 +41,7 @@ from dynsolve.document.books import GAUTIER_KHALIL, KHALIL_DOMBRE, cited, of_sec
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
+from dynsolve.explain.christoffel import NO_CORIOLIS
 from dynsolve.explain.given import at_the_state, holds_at_state, in_words, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.signs import formulas_in
@@ -291,16 +292,24 @@ def _model(
     if names is not None:
         rows = [node for line in model.lines for node in line.formulas]
         yield from names.told(own, rows or [step.result[0] for step in forces])
+    if robot.n > 1 or detail is Detail.RESULTS:
+        yield from _matrices(robot, model, own)
+    yield from _lines(model)
+    if not model.lines and len(forces) == robot.n:
+        yield from _rows(robot, forces, [step.result[0] for step in forces])
+
+
+def _matrices(robot: Robot, model: Step, own: Sequence[Step]) -> Iterator[Block]:
+    """The matrices in the equation of motion, or by themselves."""
     matrices = tuple(Formula(step.result[0], entries=step.entries) for step in own)
     what = "With the matrices" if model.result else "The matrices"
-    yield Text((what, f" of the {machine(robot)}", Reference(_MATRICES, ", "), ":"))
+    are_left_out = model.result and any(NO_CORIOLIS in step.result for step in own)
+    left_out: Prose = (" and ", NO_CORIOLIS) if are_left_out else ()
+    yield Text((what, f" of the {machine(robot)}", Reference(_MATRICES, ", "), *left_out, ":"))
     if model.result:
         yield from (Formula(result, entries=model.entries, otherwise=matrices) for result in model.result)
     else:
         yield from matrices
-    yield from _lines(model)
-    if not model.lines and len(forces) == robot.n:
-        yield from _rows(robot, forces, [step.result[0] for step in forces])
 
 
 def _forces(robot: Robot, by_id: Mapping[str, Step]) -> list[Step]:

@@ -373,7 +373,6 @@ def _momentum_of_rates(m: Mechanism, s: Sentence) -> bool:
 @says(
     "{} is constant, so every Christoffel symbol is zero.",
     "{} is constant, and {}: nothing is left to be checked.",
-    "{} is constant, and {}.",
     "{} is constant: of all that joint # moves, it is the ....",
 )
 def _constant(m: Mechanism, s: Sentence) -> bool:

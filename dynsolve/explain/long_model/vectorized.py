@@ -186,7 +186,7 @@ def _coriolis_told(context: Context) -> tuple[Prose, tuple[Node, ...]]:
         "Row k, column j. $𝐂 𝐪̇$ has in row k the sum over $i$ and $j$ of the force k{forces}: centrifugal "
         "terms (a rate squared) and Coriolis terms (a product of two rates). {told}.",
         forces=Reference(("forces",), " in "),
-        told=told if full else "There are none",
+        told=told,
     )
     return why, (*full[:1], *((equation(*zero, ZERO),) if zero else ()))
 

@@ -20,7 +20,7 @@ from dynsolve.explain.terms import (
     motors_prose,
     with_force_letters,
 )
-from dynsolve.explain.writing import is_small
+from dynsolve.explain.writing import is_small, scalar
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Number, Quotient, Symbol, equation, mapped
 from dynsolve.quantities import letters
@@ -37,7 +37,9 @@ def steps(context: Context) -> Iterator[Step]:
         yield not_derived("qdd_forward", "The accelerations", value.why)
         return
     lines = inverse_of_inertia(context)
+    accelerations = tuple((Symbol(q.name, 2),) for q in context.robot.coordinates)
     shown = mapped(context.form("qdd_forward"), with_force_letters(context.robot))
+    letter = accelerations[0][0] if len(accelerations) == 1 else letters.QDD
     yield Step(
         id="qdd_forward",
         title="The accelerations that the forces make",
@@ -53,8 +55,8 @@ def steps(context: Context) -> Iterator[Step]:
         concluding=(f"Multiplied out{'' if is_diagonal(context.values['D']) else and_cancelled(value)}:",)
         if lines
         else (),
-        result=(equation(letters.QDD, shown),),
-        entries=tuple((Symbol(q.name, 2),) for q in context.robot.coordinates),
+        result=(equation(letter, scalar(shown)),),
+        entries=accelerations,
         detail=Detail.BRIEF,
     )
 

@@ -115,7 +115,14 @@ def test_c_and_g_are_read_off_too() -> None:
 
 def test_a_constant_d_has_no_list_of_zeros_and_no_other_c() -> None:
     assert step("cartesian-pp", "christoffel").notes == step("cartesian-pp", "C").notes == ()
-    assert said(step("cartesian-pp", "C").why, "cartesian-pp").endswith("There are none here.")
+    assert shown("cartesian-pp", "C") == ["𝐂 = 𝟎"]
+    normal, full = (
+        report(solved("cartesian-pp"), Format.TEXT, detail=detail).decode()
+        for detail in (Detail.NORMAL, Detail.FULL)
+    )
+    assert normal.count("zero.") == full.count("so every Christoffel symbol is zero.") == 1
+    assert "cᵢⱼₖ = ½" in full and "cᵢⱼₖ" not in normal
+    assert "With the matrices of the arm and 𝐂 = 𝟎:" in normal
     (note,) = step("planar-2r", "christoffel").notes
     assert said(note, "planar-2r") == "c₁₁₁ and c₂₂₂ are zero."
     (note,) = step("rp-vertical", "christoffel").notes
@@ -123,6 +130,14 @@ def test_a_constant_d_has_no_list_of_zeros_and_no_other_c() -> None:
 
 
 ONE = "dh: [{theta: q*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
+
+
+def test_of_one_coordinate_there_is_one_equation() -> None:
+    asked = f"gravity: [0, -g, 0]\n{ONE}find: [tau, D, C, g, qdd_forward]\n"
+    summary = report(solved(asked), Format.TEXT).decode().split("Summary")[1]
+    assert "[" not in summary and "τ₁ = m l² q̈ + m g l cos(q)\n" in summary
+    assert shown(asked, "qdd_forward") == ["q̈ = (τ₁ - m g l cos(q))/(m l²)"]
+    assert "𝐃 = [m l²]" in report(solved(asked), Format.TEXT, detail=Detail.RESULTS).decode()
 
 
 def test_a_single_joint_has_no_other_rates() -> None:

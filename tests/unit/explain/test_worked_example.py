@@ -139,5 +139,5 @@ find: [tau, C, D, Jr_dot]
     steps = {step.id: step for step in solved(arm).steps}
     assert f"({shown} J_v1" in to_unicode(steps["D_direct"].formula)
     for name in ("C", "Jr_dot"):
-        text = to_unicode(steps[name].formula)
+        text = to_unicode(steps[name].task or steps[name].formula)
         assert "θ̇" in text and "q̇₁" not in text and "q₁" not in text
