@@ -1097,7 +1097,7 @@ def _other_minors(m: Mechanism, s: Sentence) -> bool:
     return True
 
 
-@says("<A force|A moment|A force and a moment|What acts>[ {}] along <it|them> need[s] no ....")
+@says("<A force|A moment|A force and a moment|What acts> along <it|them>[, {},] need[s] no ....")
 def _no_torque(m: Mechanism, s: Sentence) -> bool:
     """The vectors that the step shows, against the Jacobian that it shows, where it is singular."""
     where = [nodes[0] for text, nodes in s.before() if text.startswith("Where ") and nodes]

@@ -9,15 +9,16 @@ signs, a w of these columns; it is one of J where the rank is k.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import combinations
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, combinations
 
 from msgspec import Struct
 
-from dynsolve.algebra.factors import trig_factors, trig_quotient
+from dynsolve.algebra.factors import parameters, trig_factors, trig_quotient
 from dynsolve.algebra.linear_systems import content
 from dynsolve.algebra.matrix import Matrix, determinant, minors, work
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.spaces import nullspace
 from dynsolve.derivation.singular.zeros import Condition, core, follows, never_hold
 
 Direction = tuple[Expr, ...]
@@ -34,11 +35,15 @@ MOST_WORK = 2_500
 
 
 class Loss(Struct, frozen=True):
-    """The rank where some conditions hold, and the directions that are lost; none where they are long.
+    """The rank where some conditions hold, and the w with wᵀ J = 0 there; none where they are long.
 
-    The last `everywhere` of the `directions` are lost in every configuration.  `jacobian` is the matrix
-    there, up to a factor that is never 0.  With `rank_holds` the rank is that wherever the conditions hold,
-    and with `are_independent` those `here` are independent there; else both are so almost everywhere.
+    Of the `directions` the last `everywhere` are those of every configuration, `impossible` in number, in the
+    limit; those `here` are orthogonal to these, and so are motions that are possible in other configurations.
+    If they cannot be parted, or only by sums of lengths and angles, `everywhere` is 0.
+
+    `jacobian` is the matrix there, up to a factor that is never 0.  With `rank_holds` the rank is that
+    wherever the conditions hold, and with `are_independent` those `here` are independent there; else both
+    are so almost everywhere.
     """
 
     rank: int
@@ -46,6 +51,7 @@ class Loss(Struct, frozen=True):
     jacobian: Matrix
     rank_holds: bool
     are_independent: bool
+    impossible: int = 0
     everywhere: int = 0
 
     @property
@@ -55,8 +61,13 @@ class Loss(Struct, frozen=True):
 
 
 def lost_everywhere(jacobian: Matrix, rank: int) -> tuple[Direction, ...]:
-    """The directions w with wᵀ J = 0 in every configuration, of a Jacobian of this rank."""
-    return tuple(_directions(jacobian, rank, ()))
+    """A basis of the w with wᵀ J = 0 in every configuration, of a Jacobian of this rank; () where it is long.
+
+    Where the rank is less it may be one still, as its vectors are independent wherever they can be.
+    """
+    square = Matrix.of(jacobian.ring, (row[:rank] for row in jacobian.rows[:rank]))
+    is_long = work(square) > MOST_WORK
+    return () if rank == len(jacobian.rows) or is_long else nullspace(jacobian.T).T.rows
 
 
 def loss(
@@ -78,44 +89,79 @@ def loss(
     left = next((k for k in sizes if _has_rank(there, k, conditions)), 0)
     rank = pivots + left
     held = _held(jacobian, conditions)
-    directions, many = _parted(tuple(_directions(held, rank, conditions)), everywhere, conditions)
-    is_short = all(sum(map(len, direction)) <= LONGEST for direction in directions)
-    shown = directions if is_short else ()
-    here = shown[: len(shown) - many] if shown else ()
+
+    def are_independent(directions: Sequence[Direction]) -> bool:
+        size = len(directions)
+        return not size or _has_rank_everywhere(
+            Matrix.of(jacobian.ring, directions), size, conditions, nonzero
+        )
+
+    limit = _limit(everywhere, conditions)
+    found = _readable(_directions(_beside(held, limit), rank + len(limit), conditions)) if limit else ()
+    if not found:
+        limit = ()
+        found = _short(_directions(held, rank, conditions))
+    if not (independent := are_independent(found)):
+        across = _readable(_orthogonal(held, rank, limit, conditions))
+        if across and are_independent(across):
+            found, independent = across, True
     return Loss(
         rank,
-        shown,
+        (*found, *limit),
         held,
         rank_holds=not left or _has_rank_everywhere(there, left, conditions, nonzero),
-        are_independent=not here
-        or _has_rank_everywhere(Matrix.of(jacobian.ring, here), len(here), conditions, nonzero),
-        everywhere=many if shown else 0,
+        are_independent=independent,
+        impossible=len(jacobian.rows) - greatest,
+        everywhere=len(limit),
     )
 
 
-def _parted(
-    directions: tuple[Direction, ...], everywhere: Sequence[Direction], conditions: Sequence[Condition]
-) -> tuple[tuple[Direction, ...], int]:
-    """The directions, behind those of one configuration those that are lost anyhow, and how many these are.
+def _short(directions: Iterable[Direction]) -> tuple[Direction, ...]:
+    """The directions, if none is long."""
+    found = tuple(directions)
+    return found if all(sum(map(len, direction)) <= LONGEST for direction in found) else ()
 
-    What is lost anyhow may be no longer independent there: then nothing is parted.
-    """
-    if not directions or not everywhere:
-        return directions, 0
-    ring = directions[0][0].ring
+
+def _readable(directions: Iterable[Direction]) -> tuple[Direction, ...]:
+    """The same of orthogonal ones, if none adds lengths to angles."""
+    found = _short(directions)
+    return found if all(map(_has_one_unit, chain(*found))) else ()
+
+
+def _has_one_unit(value: Expr) -> bool:
+    """Whether the terms of a component have the same unit: a length each parameter, and what slides."""
+    ring = value.ring
+    slides = {ring.symbol_indices[name, 0] for name, kind in ring.coordinates if kind == "prismatic"}
+    lengths = slides | set(parameters(value))
+    return len({sum(term[i] for i in lengths) for term in value.poly.monoms()}) <= 1
+
+
+def _limit(everywhere: Sequence[Direction], conditions: Sequence[Condition]) -> tuple[Direction, ...]:
+    """What the directions of every configuration span where conditions hold; () where they are dependent."""
     there = [_reduced(one, conditions) for one in everywhere]
-    if any(all(value.is_zero for value in one) for one in there):
-        return directions, 0
-    kept = [_without_shared(one, conditions) for one in there]
-    if not _has_rank(Matrix.of(ring, kept), len(kept), conditions):
-        return directions, 0
-    found: list[Direction] = []
-    for one in directions:
-        if len(found) + len(kept) == len(directions):
-            break
-        if _has_rank(Matrix.of(ring, (*kept, *found, one)), len(kept) + len(found) + 1, conditions):
-            found.append(one)
-    return (*found, *kept), len(kept)
+    if not there or any(all(value.is_zero for value in one) for one in there):
+        return ()
+    kept = _short(_without_shared(one, conditions) for one in there)
+    return kept if kept and _has_rank(Matrix.of(kept[0][0].ring, kept), len(kept), conditions) else ()
+
+
+def _beside(matrix: Matrix, vectors: Sequence[Direction]) -> Matrix:
+    """A matrix with vectors as further columns: what is orthogonal to all is so to these, too."""
+    return Matrix.of(matrix.ring, (*matrix.T.rows, *vectors)).T
+
+
+def _orthogonal(
+    matrix: Matrix, rank: int, others: Sequence[Direction], conditions: Sequence[Condition]
+) -> Iterator[Direction]:
+    """All w with wᵀ J = 0 that are orthogonal to others, each orthogonal to those before it."""
+    before = list(others)
+    while rank + len(before) < len(matrix.rows):
+        known = _beside(matrix, before)
+        one = next(_directions(known, rank + len(before), conditions), None)
+        if one is None:
+            return
+        before.append(one)
+        yield one
 
 
 def _held(matrix: Matrix, conditions: Sequence[Condition]) -> Matrix:
@@ -212,7 +258,8 @@ def _without_shared(direction: Direction, conditions: Sequence[Condition]) -> Di
             if any(value is None for value in left):
                 break
             direction = tuple(value for value in left if value is not None)
-    sign = -1 if all(f < 0 for value in direction for f in value.poly.coeffs()) else 1
+    factors = [factor for value in direction for factor in value.poly.coeffs()]
+    sign = -1 if 2 * sum(factor < 0 for factor in factors) > len(factors) else 1
     return tuple(value * (sign / content(direction)) for value in direction)
 
 

@@ -2,23 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
 from dynsolve.algebra.linear_systems import is_solvable, rank_parts
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, work
+from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.reached import angle_rows
 from dynsolve.document import Prose
 from dynsolve.document.books import spong
-from dynsolve.document.sentences import Value, paragraph, say
+from dynsolve.document.sentences import Value, opened, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import of_task
 from dynsolve.explain.step import TOLD, Detail, Part, Step
-from dynsolve.explain.writing import column_of, is_small, listed, side_by_side
+from dynsolve.explain.writing import and_joined, column_of, is_small, listed, side_by_side
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import ONE, ZERO, Node, Parenthesized, Power, Sum, Symbol, Words, equation
+from dynsolve.notation.tree import (
+    ONE,
+    ZERO,
+    Node,
+    Parenthesized,
+    Power,
+    Reference,
+    Sum,
+    Symbol,
+    Words,
+    equation,
+)
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.questions.rates.derive import MOST_PRODUCTS, lost_motions, squared, wanted_by_accelerations
@@ -254,7 +267,8 @@ _SPACES = {
     ),
     "lost": (
         "Motions of the task that are lost",
-        "What is orthogonal to all possible velocities. A force $𝐅$ along it needs no drive of the joints.",
+        "What is orthogonal to all possible velocities. {Loads} along it, $𝐅$, {need} no drive of the "
+        "joints.",
         letters.LOST,
         formula("𝐉_rᵀ 𝐅 = 𝟎"),
         spong("4.10"),
@@ -263,18 +277,46 @@ _SPACES = {
 """What a space is called, what it is, its letter, the condition of what is in it, and where that stands."""
 
 
+def loads_along(context: Context, jacobian: str, vectors: Iterable[Sequence[Expr]]) -> list[str]:
+    """What acts along vectors of the task, or of J: forces on points, moments where there are angles."""
+    task = context.robot.questions.task
+    if jacobian == "J" or task is None or task.is_twist:
+        kinds = ["a force"] * 3 + ["a moment"] * 3
+    else:
+        angles = angle_rows(context.values["r"])
+        kinds = [_load(entry, is_angle) for entry, is_angle in zip(task.entries, angles, strict=True)]
+    used = {kind for v in vectors for kind, entry in zip(kinds, v, strict=True) if not entry.is_zero}
+    return [_ANY_LOAD] if not used or _ANY_LOAD in used else sorted(used)
+
+
+_ANY_LOAD = "what acts"
+
+
+def _load(entry: Node, is_angle: bool) -> str:
+    """What acts along a component of a task."""
+    if isinstance(entry, Reference) and entry.row is not None:
+        return "a force"
+    return "a moment" if is_angle else _ANY_LOAD
+
+
 def _space(context: Context, name: str) -> Step:
-    title, what, letter, condition, source = _SPACES[name]
+    title, text, letter, condition, source = _SPACES[name]
+    value = context.values[name]
+    is_found = not isinstance(value, Skipped)
+    loads: list[str] = []
+    if name == "lost":
+        loads = loads_along(context, "Jr", value.T.rows if is_found else ())
+    what = say(text, Loads=opened(and_joined(loads)), need="needs" if len(loads) == 1 else "need")
     too_long = " In symbols its vectors are too long to be read: give the coordinates values under `state`."
     found = Step(
         id=name,
         title=title,
-        why=(*say(what), too_long),
+        why=(*what, too_long),
         formula=condition,
         source=source,
         detail=Detail.BRIEF,
     )
-    if isinstance(context.values[name], Skipped):
+    if not is_found:
         return found
     form, state = context.matrix(name), context.robot.questions.state
     J = AtState(context.robot.ring, state.by_symbol).matrix(context.values["Jr"])
@@ -283,10 +325,10 @@ def _space(context: Context, name: str) -> Step:
     rank, count = rank_parts(J).rank, len(vectors)
     holds = of_space(SetForms(context.robot, context.values), name).prose
     if name == "lost" and not vectors:
-        what = "Nothing but $𝟎$ is orthogonal to all possible velocities: no motion is lost."
+        what = say("Nothing but $𝟎$ is orthogonal to all possible velocities: no motion is lost.")
     return replace(
         found,
-        why=paragraph((say(what), holds, _state_once(context, name))),
+        why=paragraph((what, holds, _state_once(context, name))),
         working=(equation(_J, context.show(J)),),
         result=(equation(letter, spanned),),
         holds=holds,

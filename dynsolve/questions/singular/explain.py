@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.matrix import Place
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import is_seen
-from dynsolve.derivation.reached import angle_rows
+from dynsolve.derivation.singular.losses import Loss
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
 from dynsolve.document.books import spong
@@ -23,6 +23,7 @@ from dynsolve.explain.writing import agreeing, and_joined, listed, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, Words, equation
 from dynsolve.quantities import letters
+from dynsolve.questions.rates.explain import loads_along
 from dynsolve.questions.set_forms import vanishing
 from dynsolve.questions.singular.forms import SingularForms
 from dynsolve.questions.task.explain import determinant_way
@@ -191,16 +192,16 @@ def _loss(context: Context, forms: SingularForms, found: SingularSet, case: int)
     names = [formula("𝐰")] if len(lost) == 1 else several
     told: Prose = ()
     if lost and not any(forms.lost_here[:case]):
-        loads = _loads(context)
+        loads = loads_along(context, _matrix(context), loss.here)
         told = say(
-            " Every velocity that the joints can give is orthogonal to {w}: {lost} lost. {Loads} along "
+            " Every velocity that the joints can give is orthogonal to {w}{lost}. {Loads} along "
             "{it} no {effort} of the joints.{everywhere}",
             w=listed(names),
-            lost="that motion is" if len(names) == 1 else "these motions are",
+            lost=_lost(loss),
             Loads=opened(and_joined(loads)),
             it=f"{'it' if len(names) == 1 else 'them'} {'needs' if len(loads) == 1 else 'need'}",
             effort=_effort(context.robot),
-            everywhere=_elsewhere(loss.everywhere, len(names)),
+            everywhere=_elsewhere(loss),
         )
     if not loss.are_independent:
         told += say(
@@ -236,24 +237,23 @@ def _loss(context: Context, forms: SingularForms, found: SingularSet, case: int)
     )
 
 
-def _elsewhere(count: int, here: int) -> str:
-    """That some motions of the task are impossible anyhow, which are not said to be lost there."""
-    if not count:
+def _lost(loss: Loss) -> str:
+    """That these motions are lost, where they are possible elsewhere."""
+    if loss.everywhere < loss.impossible:
         return ""
-    beside = "Beside it" if here == 1 else "Beside them"
-    return agreeing(f" {beside} {count} motion|motions is|are impossible in every configuration.", count)
+    return agreeing(": that|these motion|motions is|are lost", len(loss.here))
 
 
-def _loads(context: Context) -> list[str]:
-    """What acts along velocities of the task: forces on points, moments where it has angles."""
-    task = context.robot.questions.task
-    if _matrix(context) == "J" or task is None or task.is_twist:
-        return ["a force", "a moment"]
-    angles = angle_rows(context.values["r"])
-    places = [isinstance(entry, Reference) and entry.row is not None for entry in task.entries]
-    if not all(is_place or is_angle for is_place, is_angle in zip(places, angles, strict=True)):
-        return ["what acts"]
-    return ["a force"] * any(places) + ["a moment"] * any(angles)
+def _elsewhere(loss: Loss) -> str:
+    """That some motions of the task are impossible anyhow, which are not said to be lost there."""
+    if not loss.impossible:
+        return ""
+    anyhow = f"{loss.impossible} motion|motions is|are impossible in every configuration"
+    anyhow = agreeing(anyhow, loss.impossible)
+    if loss.everywhere < loss.impossible:
+        return f" {opened(anyhow)}, here {len(loss.directions)}."
+    beside = agreeing("Beside it|them", len(loss.here))
+    return f" {beside} {anyhow}."
 
 
 def _effort(robot: Robot) -> str:

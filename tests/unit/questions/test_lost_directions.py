@@ -26,7 +26,7 @@ find: [singular]
 @pytest.mark.parametrize(
     ("problem", "case", "rank_holds", "are_independent"),
     [
-        (RRP, 0, True, False),  # q3 = 0: (s1, -c1, 0) and (s2, 0, -c1 c2) are parallel where c1 = 0
+        (RRP, 0, True, True),  # q3 = 0: (s1, -c1, 0) and one orthogonal to it, never 0
         (RRP, 1, False, True),  # c2 = 0: where q3 = 0 besides, the rank is 1
         (FOLDED, 0, False, True),  # a2 + a3 c3 = 0: where a2 = a3 it is folded, and the rank is 1
         (STRETCHED, 0, True, True),  # s2 = 0: one direction, along the arm

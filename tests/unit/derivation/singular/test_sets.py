@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 import dynsolve
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.sampling import Transfer
+from dynsolve.derivation.configurations import states_of, zero_near
 from dynsolve.derivation.rules import derive
 from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import SingularSet, singular_set
 from dynsolve.notation.python import to_python
+from dynsolve.notation.tree_values import compile_trees
 from dynsolve.problem import read_problem
+from dynsolve.questions.singular.forms import SingularForms
 from tests.support import ROOT
 
 # -- singular configurations of arms whose Jacobians the literature discusses ------------------------
@@ -111,10 +115,68 @@ def test_every_direction_that_is_lost_is_found(table: str, task: str, rows: int,
     assert [len(loss.directions) for loss in found.losses] == [rows - rank for rank in ranks]
 
 
-def test_a_wrench_is_a_force_and_a_moment() -> None:
-    solution = dynsolve.solve(f"dh: [{WRIST}]\ntask: twist\nfind: [singular]\n")
-    why = next(step.why for step in solution.steps if step.id == "singular_1")
-    assert "A force and a moment along " in "".join(part for part in why if isinstance(part, str))
+FEW = [
+    WRIST,
+    "{theta: q1*, alpha: -90deg}, {theta: q2*, alpha: 90deg}, {theta: q3*, d: h}",
+    "{theta: q1*, a: a1}, {theta: q2*, a: a2, alpha: 180deg}, {d: q3*}, {theta: q4*, d: d4}",
+    "{theta: q1*, alpha: 90deg}, {d: q2*, alpha: -90deg}, {theta: q3*, a: l, alpha: 90deg}",
+    "{theta: q1*, a: l}, {theta: q2*, a: l}, {theta: q3*, a: l}, {d: q4*, alpha: 90deg}, {theta: q5*, a: c}",
+]
+
+
+@pytest.mark.parametrize("table", FEW)
+def test_a_motion_that_is_lost_is_possible_close_by(table: str) -> None:
+    """Of few joints and all six rates: w is in the range of J, nearly, as soon as the arm is not singular."""
+    solution = dynsolve.solve(f"gravity: none\ndh: [{table}]\ntask: twist\nfind: [singular]\n")
+    robot = solution.robot
+    shown = SingularForms(robot, solution.values)
+    found = shown.singular_set
+    assert found is not None and found.losses
+    program = compile_trees([shown.matrix(solution.values["Jr"])])
+    for loss, zeros, lost in zip(found.losses, shown.singular, shown.lost_here, strict=True):
+        assert loss.everywhere == loss.impossible == 6 - found.rank
+        start = states_of(robot, program)[0]
+        there = zero_near(robot, compile_trees(zeros), start)
+        assert there is not None and lost
+        close = there | {
+            name: there[name] + 1e-5 * (start[name] - there[name] + 1) for name, _ in robot.ring.coordinates
+        }
+        J = np.array(program.run(close)[0])
+        reached = J @ np.linalg.pinv(J)
+        for w in np.array(compile_trees(lost).run(there)):
+            assert np.allclose(reached @ w, w, atol=1e-3)
+
+
+def test_what_cannot_be_parted_is_not_said_to_be_lost() -> None:
+    """What is orthogonal to the motions that are never possible has a component 1 + l² cos²(q3)."""
+    table = "{theta: q1*, alpha: 90deg}, {theta: q2*, alpha: -90deg}, {theta: q3*, a: l, alpha: 90deg}"
+    steps = dynsolve.solve(f"gravity: none\ndh: [{table}]\ntask: twist\nfind: [singular]\n").steps
+    why = next(step.why for step in steps if step.id == "singular_1")
+    told = "".join(part if isinstance(part, str) else "·" for part in why)
+    assert "is orthogonal to ·, ·, · and ·. " in told and "lost" not in told
+    assert "3 motions are impossible in every configuration, here 4." in told
+
+
+@pytest.mark.parametrize(
+    ("table", "task", "loads"),
+    [
+        (
+            WRIST,
+            "twist",
+            {"singular_1": "A moment along it needs no ", "lost": "A force along it, "},
+        ),
+        (FEW[1], "twist", {"singular_1": "A force and a moment along it need no "}),
+        ("{theta: q1*, a: l}, {d: d2*}", "[tip.x, tip.y, tip.z]", {"lost": "A force along it, "}),
+    ],
+)
+def test_it_is_said_what_a_vector_is(table: str, task: str, loads: dict[str, str]) -> None:
+    """By what it has: of no moment it is a force."""
+    text = f"gravity: none\ndh: [{table}]\ntask: {task}\nfind: [singular, lost]\n"
+    words = {
+        step.id: "".join(part for part in step.why if isinstance(part, str))
+        for step in dynsolve.solve(text).steps
+    }
+    assert all(told in words[name] for name, told in loads.items())
 
 
 def test_a_determinant_of_one_factor_is_0_there_for_all_parameters() -> None:
