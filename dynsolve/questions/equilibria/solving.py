@@ -356,6 +356,7 @@ def _only_zero(value: Expr, signs: ParameterSigns) -> tuple[Expr, Expr] | None:
 def _search_ring(ring: Ring, wanted: Sequence[Expr]) -> Ring:
     """The ring to search in, with q - a as an angle of it where that is shorter: a is a slope, or 30°."""
     found = search_ring(ring, (), {})
+    found = _shortest(ring, wanted, [found, _as_given(ring, found)])
     places = range(len(found.plan.turning))
     fixed = [pair.angle for pair in found.pairs if not {*names_of(pair.angle)} & {*found.names}]
     for slope in (angle for angle in fixed if angle.terms):
@@ -368,6 +369,21 @@ def _search_ring(ring: Ring, wanted: Sequence[Expr]) -> Ring:
         with suppress(AlgebraError):  # the ring has not every constant angle
             found = _shortest(ring, wanted, [found, *(_ahead(found, *one) for one in ahead)])
     return found
+
+
+def _as_given(ring: Ring, found: Ring) -> Ring:
+    """The ring with what is added to each coordinate: 45° and 15° of q₁ + 45° and q₁ + q₂ + 60°."""
+    turning = [*found.plan.turning]
+    places = {i: k for k, (unit, _) in enumerate(turning) for i, rate in enumerate(unit) if rate}
+    for vector, offset in ring.plan.turning:
+        *others, last = (i for i, rate in enumerate(vector) if rate)
+        for i in others:
+            unit, own = turning[places[i]]
+            offset -= own * (vector[i] / unit[i])
+        unit, _ = turning[places[last]]
+        offset *= unit[last] / vector[last]
+        turning[places[last]] = unit, offset if offset.degrees % 90 else offset - Angle((), offset.degrees)
+    return ring_of(ring.coordinates, replace(found.plan, turning=tuple(turning)))
 
 
 def _shortest(ring: Ring, wanted: Sequence[Expr], rings: Sequence[Ring]) -> Ring:

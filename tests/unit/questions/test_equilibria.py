@@ -1616,3 +1616,20 @@ find: [equilibria]
 """
     (told,) = dynsolve.solve(problem).to_json()["results"]["equilibria_stability"]
     assert {(one["a"], one["b"]): one["stability"] for one in told if "a" in one} == stable
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "pose"),
+    [("- 30deg", "+ 60deg", "q₁ = -60°, q₂ = -60°"), ("+ 45deg", "+ 15deg", "q₁ = -135°, q₂ = -15°")],
+)
+def test_angles_that_the_table_adds_to_more_than_one_joint_give_points(
+    first: str, second: str, pose: str
+) -> None:
+    """cos(q₁ - 30°) and cos(q₁ + q₂ + 30°), not tan(q₁ + 30°) = -√3/3."""
+    text = read(f"""
+gravity: [0, -g, 0]
+dh: [{{theta: q1* {first}, a: b}}, {{theta: q2* {second}, a: c}}]
+masses: [{{mass: m, link: 1}}, {{mass: m, link: 2}}]
+find: [equilibria]
+""")
+    assert f"At {pose}: stable." in text and "tan(" not in text
