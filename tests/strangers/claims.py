@@ -931,12 +931,16 @@ def _falls_where(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "Where {&}, {}, too; but with {} the coordinates do not tell there how the bodies move: "
-    "it need not be an equilibrium."
+    "Where {&}, {}, too; but {&} move[s] no body there, {&}, and the coordinates do not tell how the bodies "
+    "move: it need not be an equilibrium."
 )
 def _no_coordinates(m: Mechanism, s: Sentence) -> bool:
-    where = m.where(tree.Row(s.formulas[:-2]))
-    return near(m.at_rest(where), 0) and near(np.linalg.det(m.result("D", where)), 0)
+    names = names_of(tuple(node for node in s.formulas if isinstance(node, Symbol)))
+    conditions = s.formulas[: next(k for k, node in enumerate(s.formulas) if isinstance(node, Symbol)) - 1]
+    where = m.where(tree.Row(conditions))
+    inertia = np.diag(m.result("D", where))
+    still = [inertia[m.coordinates.index(name)] for name in names]
+    return bool(names) and near(m.at_rest(where), 0) and near(np.array(still), 0)
 
 
 @says("<At {}|In every configuration|In equilibrium[ at {}]|In case #[ at {}]>, where {}: <not stable>.")

@@ -336,7 +336,7 @@ def verify(held: Held) -> None:
         balanced = forms(balanced_forces(robot))
         zeros, holds = in_balance(forms, balanced), holding(forms, balanced)
         A = forms("Ac") if robot.questions.constraints else None
-        unknown = [[*map(shown.condition, case)] for case in values["equilibria"].singular]
+        unknown = [[*map(shown.condition, case)] for case, _ in values["equilibria"].singular]
         verify_equilibria(robot, balanced, zeros, [Case(*case) for case in told], holds, A, unknown)
         programs = [compile_trees(list(case)) for case in shown.equilibria]
         for k, sets in enumerate(shown.excluded):

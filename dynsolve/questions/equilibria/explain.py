@@ -24,7 +24,7 @@ from dynsolve.explain.forms import Forms, ProductForms
 from dynsolve.explain.given import in_units
 from dynsolve.explain.sanity.determinant import sign_of
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
-from dynsolve.explain.writing import and_joined, as_row, is_small, listed, scalar, side_by_side
+from dynsolve.explain.writing import agreeing, and_joined, as_row, is_small, listed, scalar, side_by_side
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ONE,
@@ -338,13 +338,22 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
 
 
 def _singular(shown: EquilibriaForms, found: Equilibria, forces: Node) -> Iterator[Prose]:
-    """Where D has no inverse, so that no force has to be 0 for the bodies to stay."""
-    for case in found.singular:
+    """Where coordinates move no body, so that no force has to be 0 for the bodies to stay."""
+    for case, idle in found.singular:
         zero = listed(shown.relations(case, tuple(map(shown.condition, case))))
-        text = "Where {zero}, {balance}, too; but with $det 𝐃 = 0$ the coordinates do not tell there how the "
+        names = listed([Symbol(shown.robot.coordinates[k].name) for k in idle])
+        zeros = listed([equation(letters.entry("d", k + 1, k + 1), Number(0)) for k in idle])
         more = " The same is so for special parameters." * bool(found.special)
-        text += f"bodies move: it need not be an equilibrium.{more}"
-        yield say(text, zero=zero, balance=equation(forces, _ZERO))
+        yield say(
+            "Where {zero}, {balance}, too; but {names} {move} no body there, {zeros}, and the coordinates do "
+            "not tell how the bodies move: it need not be an equilibrium.{more}",
+            zero=zero,
+            balance=equation(forces, _ZERO),
+            names=names,
+            move=agreeing("moves|move", len(idle)),
+            zeros=zeros,
+            more=more,
+        )
 
 
 def _unseen(found: Equilibria) -> Iterator[Prose]:

@@ -108,7 +108,7 @@ class Equilibria(Struct, frozen=True):
     each is without the sets that are `excluded`, and further sets on which there are no multipliers are left
     out if not `is_whole`; where the rows of A_c `may_be_dependent` nothing is known.  `never` has conditions
     that are no case, and what is not 0 where they hold.  Of what `is_seen` the inequalities are all.  Of the
-    `singular` it is not known whether they are equilibria.
+    `singular` it is not known whether they are equilibria: coordinates, from 0, that they fix move no body.
     """
 
     rows: tuple[Expr, ...]
@@ -122,7 +122,7 @@ class Equilibria(Struct, frozen=True):
     may_be_dependent: bool = False
     never: tuple[tuple[Alternative, Expr], ...] = ()
     is_seen: tuple[bool, ...] = ()
-    singular: tuple[Alternative, ...] = ()
+    singular: tuple[tuple[Alternative, tuple[int, ...]], ...] = ()
     only: tuple[tuple[Expr, Expr], ...] = ()
 
 
@@ -243,7 +243,7 @@ class _Search:
             may_be_dependent=settled is None,
             never=(*special.never, *never),
             is_seen=tuple(_is_seen(one, self.signs) for one in exist),
-            singular=tuple(singular),
+            singular=tuple(singular.items()),
             only=tuple(self.only.items()),
         )
 
@@ -284,12 +284,14 @@ class _Search:
         own, theirs = rows(condition.expr for condition in cases[0]), rows(self.wanted)
         return len(own) == len(theirs) == len(rows([*own, *theirs])) and divided.is_empty
 
-    def _singular(self, cases: Iterable[Alternative], inertia: Matrix | None) -> list[Alternative]:
-        """Cases in which a coordinate describes nothing."""
+    def _singular(
+        self, cases: Iterable[Alternative], inertia: Matrix | None
+    ) -> dict[Alternative, tuple[int, ...]]:
+        """Cases in which coordinates describe nothing, and these."""
         if inertia is None:
-            return []
+            return {}
         mass, free = inertia.map(self.there), wanted_rows(self.robot)
-        return [one for one in cases if _is_singular(mass, one, free)]
+        return {one: idle for one in cases if (idle := _idle(mass, one, free))}
 
     def _points(
         self, exist: Mapping[Alternative, tuple[Bound, ...]], forces: Matrix, may_be_held: bool
@@ -454,15 +456,15 @@ def _ring_of_sums(ring: Ring, case: Alternative) -> Ring:
     return ring
 
 
-def _is_singular(inertia: Matrix, case: Alternative, free: Sequence[int]) -> bool:
-    """Whether a case fixes one of the `free` coordinates that moves no body there, as an angle at r = 0.
+def _idle(inertia: Matrix, case: Alternative, free: Sequence[int]) -> tuple[int, ...]:
+    """Those of the `free` coordinates that a case fixes though they move no body there, as an angle at r = 0.
 
     Where it does not, forces are 0 in whatever direction the bodies move: a pendulum that hangs.
     """
     known = [condition.expr for condition in case]
     heavy = (k for k in free if not inertia[k, k].is_zero)
-    idle = [k for k in heavy if lies_in(known, [inertia[k, k]])]
-    return any(not inertia.ring.diff(one, k).is_zero for one in known for k in idle)
+    still = (k for k in heavy if lies_in(known, [inertia[k, k]]))
+    return tuple(k for k in still if any(not inertia.ring.diff(one, k).is_zero for one in known))
 
 
 def _is_told_of_more(point: Point, own: Alternative, cases: Iterable[Alternative]) -> bool:

@@ -1334,6 +1334,22 @@ def test_where_coordinates_do_not_tell_how_bodies_move_nothing_need_be_in_equili
     assert ("need not be an equilibrium" in str(told_of(text).outcome)) == is_doubtful
 
 
+def test_it_is_told_which_coordinate_moves_no_body() -> None:
+    """Stretched, with det D = 0, both do; folded on its joint, a mass at the tip is moved by q2 alone."""
+    folded = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}, {theta: q2*, a: l}]
+masses: [{mass: m, link: 2}]
+find: [equilibria]
+"""
+    step = told_of(folded)
+    assert list(map(to_unicode, step.result)) == ["cos(q₁) = 0 and q₂ = 0"]
+    told = "".join(
+        part if isinstance(part, str) else to_unicode(part) for note in step.notes for part in note
+    )
+    assert "Where cos(q₁) = 0 and q₂ = 180°, g = 0, too; but q₁ moves no body there, d₁₁ = 0, and" in told
+
+
 def test_a_table_and_a_model_of_one_mechanism_have_the_same_equilibria() -> None:
     """At r = 0 the point mass is at the pivot, and what turns has no inertia."""
     table = """
