@@ -25,6 +25,7 @@ from dynsolve.explain.jacobian import (
     read_off,
     told_read_off,
 )
+from dynsolve.explain.mass_centers import keeps_its_axis
 from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.placed_bodies import energy_steps, jacobians_step, total_energy
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Line, Part, Step, outlined
@@ -124,9 +125,14 @@ def _of_body(context: Context, name: str) -> Node:
     """Of body i: -m_i g₀ᵀ r_ci, or ½ m_i v_iᵀ v_i + ½ ω_iᵀ I_i ω_i."""
     if name == "P":
         return formula("-m_i 𝐠_0ᵀ 𝐫_ci")
-    if all(body.is_point for body in context.robot.bodies):
+    extended = [body for body in context.robot.bodies if not body.is_point]
+    if not extended:
         return formula("½ m_i {v}", v=formula("𝐯_iᵀ 𝐯_i"))
-    return formula("½ m_i {v} + ½ {w}", v=formula("𝐯_iᵀ 𝐯_i"), w=formula("𝛚_iᵀ 𝓘_i 𝛚_i"))
+    tensor = letters.base_tensor(Symbol("i"))
+    if all(keeps_its_axis(context, body) for body in extended):
+        tensor = replace(letters.tensor(context.robot, extended[0]), sub=Symbol("i"))
+    w = formula("𝛚_iᵀ {I} 𝛚_i", I=tensor)
+    return formula("½ m_i {v} + ½ {w}", v=formula("𝐯_iᵀ 𝐯_i"), w=w)
 
 
 # -- kinetic energy --------------------------------------------------------------------------------
@@ -317,7 +323,9 @@ def _rotational(context: Context, body: Body) -> Step:
     if body.is_point:
         none = ("A point mass has no rotational energy.",)
         return replace(step, why=none, said="point mass", normal=Part.WHY | Part.RESULT)
-    tensor = letters.base_tensor(letters.index_of(b))
+    tensor = letters.tensor(context.robot, body)
+    if not keeps_its_axis(context, body):
+        tensor = letters.base_tensor(letters.index_of(b))
     energy = formula("{Kw} = ½ {product}", Kw=Kw, product=letters.transposed_product(w, tensor))
     why = say("{w} and the tensor, both in {ground} coordinates.", w=w, ground=context.ground)
     step = replace(step, why=why, hint=why, formula=energy)
@@ -326,7 +334,8 @@ def _rotational(context: Context, body: Body) -> Step:
     product, way = multiplied_out(context, body)
     working = (product,) if is_small(product) else ()
     step = replace(step, working=working, lines=way.lines, concluding=way.concluding)
-    return _turned(context, body, step) if along_own_axes(context, body) else step
+    is_along = along_own_axes(context, body) and not keeps_its_axis(context, body)
+    return _turned(context, body, step) if is_along else step
 
 
 def _turned(context: Context, body: Body, step: Step) -> Step:

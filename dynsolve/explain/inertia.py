@@ -18,7 +18,7 @@ from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.kinematics import product_of_axes, why_axes
-from dynsolve.explain.mass_centers import density_step, mass_center_step, turning_of
+from dynsolve.explain.mass_centers import density_step, keeps_its_axis, mass_center_step, turning_of
 from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.parameter_meanings import SHAPES, letters_of, shape_letters
 from dynsolve.explain.placed_bodies import center_step, orientation_step
@@ -460,7 +460,8 @@ def _base_tensor(context: Context, body: Body) -> Step:
 
 def _detail(context: Context, body: Body, base: Node) -> Detail:
     """Of a body that does not turn, or whose energy is found along its own axes, 𝓘 is shown if asked for."""
-    is_unneeded = along_own_axes(context, body) or context.values[f"w{body.name}"].is_zero
+    is_unneeded = along_own_axes(context, body) or keeps_its_axis(context, body)
+    is_unneeded |= context.values[f"w{body.name}"].is_zero
     if is_unneeded and f"I{body.name}" not in context.wanted:
         return Detail.FULL
     is_unturned = context.values[f"I{body.name}"] == context.values[f"I_body{body.name}"]

@@ -278,6 +278,11 @@ def _axis_of_symmetry(context: Context, body: Body) -> str | None:
     return next((name for k, name in enumerate("xyz") if R[k, k] == one), None)
 
 
+def keeps_its_axis(context: Context, body: Body) -> bool:
+    """Whether a body that is given by its position turns about an axis that stands still, so that 𝓘 = 𝐈."""
+    return not context.robot.has_table and _axis_of_symmetry(context, body) is not None
+
+
 def _turned(context: Context, body: Body) -> Iterator[Node]:
     """R I Rᵀ with their entries, then R (I Rᵀ): one product of matrices from a line to the next."""
     b = body.name

@@ -17,6 +17,7 @@ from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import QUADRATIC, is_too_long
+from dynsolve.explain.mass_centers import keeps_its_axis
 from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.named_steps import Ending, ending
 from dynsolve.explain.step import Detail, Step
@@ -70,6 +71,9 @@ def orientation_step(context: Context, body: Body) -> Step:
         working=tuple(equation(name, context.show(turn.rotation)) for name, turn in shown) if several else (),
         result=(equation(R, context.form(f"R{body.name}")),),
         uses=(),
+        detail=Detail.FULL
+        if keeps_its_axis(context, body) and f"R{body.name}" not in context.wanted
+        else Detail.NORMAL,
     )
 
 

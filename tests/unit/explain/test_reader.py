@@ -278,7 +278,7 @@ def test_the_base_of_the_modified_recursions_accelerates_along_its_own_axes() ->
 
 
 def test_the_entries_of_the_coriolis_matrix_have_one_letter() -> None:
-    for stem in ("cartesian-pp", "planar-2r"):
+    for stem in ("in3140-rp", "planar-2r"):
         text = page(stem, Detail.FULL)
         assert "Cₖⱼ" in text and "cₖⱼ" not in text
 

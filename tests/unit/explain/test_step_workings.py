@@ -129,6 +129,25 @@ def test_a_constant_d_has_no_list_of_zeros_and_no_other_c() -> None:
     assert said(note, "rp-vertical") == "c₁₁₁, c₂₂₁, c₁₂₂ and c₂₂₂ are zero."
 
 
+DRUM = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic}
+  bodies:
+    - {mass: m, at: [0, -x, 0]}
+    - {mass: 0, at: [0, 0, 0], turn: x/r, inertia: {zz: I1}}
+"""
+
+
+def test_a_disk_whose_axis_stands_still_needs_no_rotation_matrix() -> None:
+    normal, full = (
+        report(solved(DRUM), Format.TEXT, detail=detail).decode() for detail in (Detail.NORMAL, Detail.FULL)
+    )
+    assert "K_ω2 = ½ 𝛚₂ᵀ 𝐈₂^b 𝛚₂ = ½ I₁ " in normal
+    assert "cos(x/r)" not in normal and "𝓘" not in normal
+    assert "𝓘₂ = 𝐑₂ 𝐈₂^b 𝐑₂ᵀ = 𝐈₂^b" in full and "cos(x/r)" in full
+
+
 ONE = "dh: [{theta: q*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
 
 
