@@ -60,9 +60,6 @@ from dynsolve.notation.tree import (
     walk,
 )
 
-_KEPT = (Rank.PARAMETER, Rank.COORDINATE, Rank.RATE)
-"""Where powers of these differ in the terms of a sum, none is drawn out of it."""
-
 SEARCHED = 14
 """Up to this number of terms every promising split is tried; above it the likeliest alone."""
 
@@ -216,14 +213,19 @@ class Collector:
     def mostly_negative(self, poly: Polynomial) -> bool:
         """Whether a sum reads better with its sign turned: more minus than plus, or as many and one first.
 
-        Of as many a coordinate counts as first, d - l/2 and not l/2 - d; a sum with angles stays as
-        it is, c₂ - a c₁ s₂, and one of a number and parameters, r - 0.1 or 0.1 - r.
+        Of as many a coordinate counts as first, d - l/2 and not l/2 - d, and a mass before sums of moments of
+        inertia; other sums with angles stay as they are, c₂ - a c₁ s₂, and one of a number and parameters,
+        r - 0.1 or 0.1 - r.
         """
         negative = sum(f < 0 for f in poly.values())
         if 2 * negative != len(poly):
             return 2 * negative > len(poly)
         highest = max(self.atoms.ranks[atom][0] for mono in poly for atom, _ in mono)
-        if highest >= Rank.TRIG or (() in poly and highest is Rank.PARAMETER):
+        if highest >= Rank.TRIG:
+            first = {min(self.atoms.ranks[atom] for atom, _ in mono): f for mono, f in poly.items() if mono}
+            ranks = {rank for rank, _ in first}
+            return ranks == {Rank.LEADING, Rank.SUM} and first[min(first)] < 0
+        if () in poly and highest is Rank.PARAMETER:
             return False
         return self.starts_negative(poly)
 
@@ -273,14 +275,21 @@ class Collector:
     def _worth_drawing(self, poly: Polynomial, shared: Monomial) -> Monomial:
         """The common monomial without lengths, coordinates and velocities that stay behind in some terms.
 
-        A book writes l² + l a c, and not l (l + a c); and k x + k₃ x³.
+        A book writes l² + l a c, and not l (l + a c); and k x + k₃ x³.  Beside a sine or cosine that is drawn
+        out too it writes l (a + l s) c, and of two lengths a b (a + b c).
         """
         if len(poly) > SEARCHED or len(poly) == 1:
             return shared
+        ranks = Counter(self.atoms.ranks[atom][0] for atom, _ in shared)
+        stay = {Rank.RATE}
+        if not ranks[Rank.TRIG]:
+            stay.add(Rank.COORDINATE)
+            if ranks[Rank.PARAMETER] == 1:
+                stay.add(Rank.PARAMETER)
         kept = []
         for atom, exponent in shared:
             left = {dict(mono)[atom] - exponent for mono in poly}
-            if self.atoms.ranks[atom][0] not in _KEPT or len(left) == 1:
+            if self.atoms.ranks[atom][0] not in stay or len(left) == 1:
                 kept.append((atom, exponent))
         return tuple(kept)
 

@@ -198,7 +198,7 @@ def determinant_way(context: Context, letter: Node, matrix: algebra.Matrix, form
     along = f"Along {which}, each entry times the determinant that is left, signs in turn"
     expanded = equation(letter, total(terms))
     is_new = to_unicode(expanded) != to_unicode(equation(letter, context.show(determinant(matrix))))
-    if not (is_new and is_small(expanded)):
+    if not ((is_new or size > 2) and is_small(expanded)):
         return SILENT
     then = identities(ring, total(terms), form)
     line = Line(by(along, used) if size > 2 else (), (expanded,))

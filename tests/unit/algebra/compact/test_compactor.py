@@ -67,6 +67,11 @@ def compact(text: str) -> str:
         ("m1*(a^2 + 3*b^2)*cos(q1)/12", "m1*(a**2 + 3*b**2)*cos(q1)/12"),
         ("(sin(q1)*a*q1_dot)^2 + (cos(q1)*a*q1_dot)^2", "a**2*q1_dot**2"),
         ("a*q1_ddot + b*q1_dot + g*cos(q1)", "a*q1_ddot + b*q1_dot + g*cos(q1)"),
+        ("m1*(a^2 + a*b*cos(q2))", "m1*(a**2 + a*b*cos(q2))"),
+        ("m1*a*(b + a*sin(q1))*cos(q1)", "m1*a*cos(q1)*(b + a*sin(q1))"),
+        ("m1*(d + a*sin(q1))*d*cos(q1)", "m1*d*cos(q1)*(d + a*sin(q1))"),
+        ("a^2*b*cos(q1) + a*b^2*cos(q1 + q2)", "a*b*(a*cos(q1) + b*cos(q1 + q2))"),
+        ("a^3*b + a*b^3 + 2*a^2*b^2*cos(q2)", "a*b*(a**2 + b**2 + 2*a*b*cos(q2))"),
     ],
 )
 def test_it_reads_as_a_textbook_prints_it(written: str, printed: str) -> None:
