@@ -46,6 +46,9 @@ _HALF = Fraction(180)
 _BY_ROOTS = {Fraction(30), Fraction(45), Fraction(60)}
 """Angles whose sines and cosines are written with one root."""
 
+_BY_TWO_ROOTS = {Fraction(15), Fraction(75)}
+"""Those that are sums of these: 60° - 45°."""
+
 _TRIAL_BOUND = 10_000
 
 
@@ -176,6 +179,10 @@ class ConstantAngles(Struct, frozen=True):
                 for _ in range(quarters):
                     c, s = s, -c
                 return (c, s) if start == rest else (s, c)
+        root2, root3 = self.root(2), self.root(3)
+        if rest in _BY_TWO_ROOTS and root2 is not None and root3 is not None:
+            c, s = root2 * (root3 + 1) / 4, root2 * (root3 - 1) / 4
+            return (c, s) if rest == min(_BY_TWO_ROOTS) else (s, c)
         raise AlgebraError(f"the angle {float(rest)}° does not occur in the problem")
 
     def _multiple(self, angle: Fraction, ctx: fmpq_mpoly_ctx) -> fmpq_mpoly:

@@ -121,6 +121,15 @@ def rounding(expr: Expr) -> float:
     return found
 
 
+@pytest.mark.parametrize("degrees", [15, 75, 105, -15])
+def test_sums_of_angles_that_have_roots_need_no_further_generator(degrees: int) -> None:
+    """60° - 45° = 15°"""
+    angles = [Angle.of("q1") + Angle((), Fraction(degrees)) for degrees in (45, 60)]
+    ring = build_ring([("q1", "revolute")], [], angles)
+    value = ring.cos(Angle((), Fraction(degrees)))
+    assert math.isclose(evaluate(value, {}), math.cos(math.radians(degrees)))
+
+
 def test_a_product_is_bounded_before_it_is_formed() -> None:
     power = Power(read("m1 + m2 + l1 + d3 + q1").tree, Number(12))
     with pytest.raises(AlgebraError, match="too many terms"):
