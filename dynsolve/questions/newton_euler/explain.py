@@ -229,8 +229,10 @@ Part = tuple[Node, Matrix | None]
 def _links(context: Context) -> Step:
     """R, the levers, the axes, gravity, and the tensors of all links."""
     general = Names.general(context)
-    base = say(" In place of gravity the base accelerates upwards, which weighs on every link alike.")
-    if context.standard:
+    base: Prose = ()
+    if not context.standard and not context.robot.gravity.is_zero:
+        base = say(" In place of gravity the base accelerates upwards, which weighs on every link alike.")
+    elif _is_heavy(context):
         turned = equation(general("{g}"), Product((Transpose(_from_ground(context)), letters.GRAVITY)))
         base = say(" Gravity is turned into each frame too: {turned}.", turned=turned)
     return Step(
@@ -376,7 +378,7 @@ def _origin_step(context: Context, joint: Joint) -> Step:
     i, link = joint.index, Names.of(context.robot, joint.index)
     terms = _acceleration(link, _rates(context, joint, JointType.PRISMATIC))
     base: Prose = ()
-    if not joint.parent and context.standard:
+    if not joint.parent and (context.standard or context.robot.gravity.is_zero):
         base = (" The base is at rest.",)
     elif not joint.parent:
         robot = context.robot

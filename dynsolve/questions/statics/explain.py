@@ -103,6 +103,9 @@ def _load(context: Context, index: int, load: Load) -> Step:
     if put_in and is_small(*put_in):
         pairs = zip(put_in[::2], put_in[1::2], strict=True)
         working.append(equation(Q, sum_of([formula("{J}ᵀ {F}", J=J, F=F) for J, F in pairs])))
+    where = "the tip" if load.point == TIP else load.point or "its point"
+    if load.force.is_zero:
+        where = f"the angular velocity of link {load.link}"
     notes: tuple[Prose, ...] = ()
     if load.by_robot:
         notes = (("The robot exerts it, so what acts on the robot is its opposite.",),)
@@ -116,7 +119,7 @@ def _load(context: Context, index: int, load: Load) -> Step:
             "transpose of the Jacobian of {where} gives its effect on the joints.",
             power=sum_of([formula("{F}ᵀ {v}", F=F, v=v) for F, v, *_ in parts]),
             Q=Q,
-            where="the tip" if load.point == TIP else load.point or "its point",
+            where=where,
         ),
         formula=equation(Q, sum_of([formula("{J}ᵀ {F}", J=J, F=F) for F, _, J, *_ in parts])),
         source=_FORCES,

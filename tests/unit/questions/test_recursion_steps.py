@@ -83,6 +83,14 @@ def test_laws_are_named_where_they_say_something() -> None:
     assert why(steps["fl1"]) == "The link has no mass: it passes on what the links after it need."
 
 
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+def test_without_gravity_nothing_is_said_of_it(convention: str) -> None:
+    arm = "gravity: none\ndh: [{theta: q1*}]\nmasses: [{mass: m, link: 1, center: [l, 0, 0]}]\n"
+    solution = dynsolve.solve(f"{arm}convention: {convention}\n", method="newton-euler")
+    steps = {step.id: step for step in solution.steps}
+    assert "ravity" not in why(steps["links"]) and why(steps["al1"]).endswith("The base is at rest.")
+
+
 def test_no_motor_is_said_to_drive_what_none_drives() -> None:
     steps = {step.id: step for step in dynsolve.solve(TREE, method="newton-euler").steps}
     assert why(steps["tau3"]) == "No motor drives q₃: τ₃ = 0."

@@ -91,6 +91,7 @@ def test_each_force_has_its_step_and_says_whose_it_is() -> None:
     steps = {step.id: step for step in dynsolve.solve(SPATIAL).steps}
     assert [i for i in steps if steps[i].stage == "statics"] == ["load1", "load2", "load3", "Q", "tau_static"]
     assert "its opposite" in steps["load2"].notes[0][0] and steps["load1"].notes == ()
+    assert "of the angular velocity of link 2 gives" in str(steps["load3"].why)  # it is a moment alone
 
 
 # -- what is said of what holds an arm ---------------------------------------------------------------
