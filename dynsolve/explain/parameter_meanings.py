@@ -289,8 +289,6 @@ def _places(robot: Robot) -> Iterator[tuple[AnyRole, str, Meaning]]:
         else:
             yield from _untold(Role.POSITION, *map(names_in, body.center.entries))
             yield from _untold(Role.DIRECTION, *map(angles_in, body.center.entries))
-        rates = (rate for turn in body.turns for rate in turn.rates.entries)
-        yield from _untold(Role.POSITION, *map(names_in, rates))
     acting = [
         (one.words, name, share)
         for one in (one for act in robot.actions.acts for one in act.parameters(robot) if one.words)

@@ -271,7 +271,7 @@ def _shortest_row(context: Context) -> tuple[Line, ...]:
     if len(summands(row)) > MOST_TERMS:
         return ()
     by = ("The shortest row as an example", Reference(("D", "christoffel", "g"), ", "), ":")
-    return (Line(by, (equation(driving_row(context.robot, q), row),)),)
+    return (Line(by, (equation_of_motion(context.robot, q, row),)),)
 
 
 def _rows_in_names(context: Context) -> tuple[Line, ...]:
@@ -280,9 +280,7 @@ def _rows_in_names(context: Context) -> tuple[Line, ...]:
     if names is None or names.single is None:
         return ()
     forces = Reference(tuple(f"tau{q.index}" for q in robot.coordinates), ", ")
-    passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
-    lead: Prose = ("Row by row", *((", with ", equation(*passive, ZERO)) if passive else ()))
-    return (Line((*lead, forces, ":"), rows_in_names(robot, names, context.form)),)
+    return (Line(("Row by row", forces, ":"), rows_in_names(robot, names, context.form)),)
 
 
 def rows_in_names(robot: Robot, names: Abbreviated, forms: Callable[[str], Node]) -> tuple[Node, ...]:
@@ -296,7 +294,7 @@ def rows_in_names(robot: Robot, names: Abbreviated, forms: Callable[[str], Node]
         forces = collected_coriolis_force(coordinates, names.symbol, k)
         return total([inertial, forces, *(entry_of(column, (k, 0)) for column in columns)])
 
-    return tuple(equation(driving_row(robot, q), row(k)) for k, q in enumerate(robot.coordinates))
+    return tuple(equation_of_motion(robot, q, row(k)) for k, q in enumerate(robot.coordinates))
 
 
 def _beside_motors(context: Context, constrained: bool = True) -> list[Node]:
@@ -311,12 +309,19 @@ def driving_side(context: Context, constrained: bool = True) -> Node:
     return sum_of([letters.TAU, *_beside_motors(context, constrained)])
 
 
-def driving_row(robot: Robot, q: Coordinate) -> Node:
+def equation_of_motion(robot: Robot, q: Coordinate, row: Node) -> Relation:
+    """A row of the left side and what it comes to, where no motor drives 0: 0 = m l ÿ + g."""
+    return equation(driving_row(robot, q, with_passive=False), row)
+
+
+def driving_row(robot: Robot, q: Coordinate, *, with_passive: bool = True) -> Node:
     """τ_k + Q_k + (A_cᵀ λ)_k: what a row of the left side comes to, with everything that acts."""
     asked = robot.questions
+    is_driven = with_passive or q.index - 1 not in robot.actions.passive
+    motor: list[Node] = [letters.force(q)] if is_driven else []
     outside: list[Node] = [letters.entry("Q", q.index)] if asked.loads else []
     held: list[Node] = [Entry(_HELD, Number(q.index))] if asked.constraints else []
-    return sum_of([letters.force(q), *outside, *held])
+    return sum_of([*motor, *outside, *held])
 
 
 def moving_side(context: Context, in_full: bool = False) -> Node:

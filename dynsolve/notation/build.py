@@ -168,6 +168,9 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
             case Product((Number(p, q), *others)) if exponent != 1:
                 coefficient = coefficient * Fraction(p, q) ** exponent
                 inner = others[0] if len(others) == 1 else Product(tuple(others))
+            case Function("sqrt", Number(p, q)) if exponent % 2 == 0:
+                coefficient = coefficient * Fraction(p, q) ** (exponent // 2)
+                continue
         if exponent == 1:
             coefficient = _put_factor(inner, coefficient, above)
         elif isinstance(inner, Number):

@@ -312,6 +312,9 @@ def _read_center(faults: Faults, fields: Fields, index: int, *, varies: bool) ->
         if varies:
             return None
         if "inertia" in fields or isinstance(fields.get("shape"), MappingNode):
+            mass = fields.get("mass")
+            if isinstance(mass, ScalarNode) and mass.text == "0":
+                return ParsedPlace("tip", fields.span)  # where it is enters nothing
             if fields.lacks("center"):
                 faults.error(fields.span, f"body {index} is not a point and has no `center`", _CENTER_HELP)
             return None

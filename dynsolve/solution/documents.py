@@ -46,7 +46,7 @@ from dynsolve.explain.given import at_the_state, holds_at_state, in_words, state
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.signs import formulas_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
-from dynsolve.explain.terms import ID, rows_in_names
+from dynsolve.explain.terms import ID, driving_row, rows_in_names
 from dynsolve.explain.writing import is_small, listed, machine, measured, side_by_side
 from dynsolve.notation.printing import Style
 from dynsolve.notation.rounding import is_rounded, marked, marked_among_words
@@ -320,12 +320,17 @@ def _forces(robot: Robot, by_id: Mapping[str, Step]) -> list[Step]:
 def _rows(
     robot: Robot, forces: Sequence[Step], rows: Sequence[Node], several: str = "Row by row"
 ) -> Iterator[Block]:
-    """The generalized forces of some steps, row by row, and which of them are 0."""
-    lead: Prose = (several if len(forces) > 1 else "The equation of motion",)
-    passive = [letters.force(robot.coordinates[k]) for k in robot.actions.passive]
-    lead += (", with ", equation(*passive, ZERO)) if passive else ()
-    yield Text((*lead, Reference(tuple(step.id for step in forces), ", "), ":"))
-    yield Equations(tuple(rows))
+    """The generalized forces of some steps, row by row; that of a passive coordinate is 0."""
+    lead = several if len(forces) > 1 else "The equation of motion"
+    yield Text((lead, Reference(tuple(step.id for step in forces), ", "), ":"))
+    sides = {driving_row(robot, q): driving_row(robot, q, with_passive=False) for q in robot.coordinates}
+    yield Equations(
+        tuple(
+            equation(sides.get(row.parts[0], row.parts[0]), *row.parts[1:])
+            for row in rows
+            if isinstance(row, Relation)
+        )
+    )
 
 
 class _Names(Struct):

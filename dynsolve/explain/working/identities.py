@@ -80,7 +80,9 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
     used = used_between(ring, before, after)
     if used is None or not used.is_found:
         return None if used is None else (IN_TURN,)
-    squared = (pythagoras(angle_node(angle, ring.names)) for angle in used.squared)
+    written = angles_in(before, after)
+    as_written = (-one if one not in written and -one in written else one for one in used.squared)
+    squared = (pythagoras(angle_node(angle, ring.names)) for angle in as_written)
     return (*squared, *(_addition(ring, each) for each in used.additions))
 
 

@@ -145,16 +145,16 @@ gravity: [0, -g, 0]
 model:
   coordinates: {x: prismatic, theta: revolute}
   bodies:
-    - {mass: M, at: [x, 0, 0]}
+    - {mass: M, at: [x, 0, 0], turn: x/rho, inertia: {zz: I}}
     - mass: m
       at: [x + l/2*sin(theta), -l/2*cos(theta), 0]
       turn: theta
       about: [0, 0, 1]
       inertia: {zz: m*l^2/12}
 """).robot
-    assert [line.words for line in problem_names(robot) if Symbol("l") in line.signs] == [
-        "length in the given positions"
-    ]
+    called = {sign: line.words for line in problem_names(robot) for sign in line.signs}
+    assert called[Symbol("l")] == "length in the given positions"
+    assert called[Symbol("rho")] == "length", "it stands in a turn alone"
 
 
 def test_in_the_modified_table_a_length_is_that_of_the_link_before() -> None:

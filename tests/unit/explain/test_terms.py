@@ -11,7 +11,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail
 from dynsolve.explain.terms import terms_of, value_of_term
 from dynsolve.notation.rounding import marked
-from dynsolve.notation.tree import equation
+from dynsolve.notation.tree import ZERO, equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import TITLE, in_model, measured_steps, solution_document
 from tests.robots import robots
@@ -94,6 +94,8 @@ def test_every_solution_ends_with_its_model(problem: str, detail: Detail) -> Non
     steps = measured_steps(solution.explain(short=short), solution.robot, solution.style)
     by_id = {step.id: step for step in steps}
     forces = [by_id[f"tau{q.index}"].result[0] for q in solution.robot.coordinates]
+    for k in solution.robot.actions.passive:
+        forces[k] = equation(ZERO, *forces[k].parts[1:])
     for line in by_id["model"].lines:
         forces = list(line.formulas)
     matrices = by_id["model"].result or tuple(by_id[name].result[0] for name in "DCg")

@@ -25,10 +25,11 @@ def tree(text: str) -> Node:
         (1, [("2*x", 2)], "4x²"),
         (1, [("2*x*y", -1), ("4*z", 1)], "2z/(x y)"),
         (-1, [("a - b", -1)], "-1/(a - b)"),
+        (Fraction(1, 4), [("sqrt(3)", 2), ("b", 1)], "3b/4"),
     ],
 )
 def test_numbers_of_all_factors_are_one(
-    coefficient: int, factors: list[tuple[str, int]], written: str
+    coefficient: Fraction | int, factors: list[tuple[str, int]], written: str
 ) -> None:
     node = times(coefficient, [(tree(text), power) for text, power in factors])
     assert UnicodePrinter().text(node) == written

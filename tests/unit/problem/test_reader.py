@@ -260,8 +260,9 @@ def test_a_table_alone_is_a_problem() -> None:
     assert problem.robot.bodies == ()
 
 
-def test_a_rotor_without_mass() -> None:
-    text = PLANAR + "masses: [{mass: 0, link: 1, center: origin, inertia: {zz: Im}}]"
+@pytest.mark.parametrize("center", ["center: origin, ", ""])
+def test_a_rotor_without_mass_needs_no_center(center: str) -> None:
+    text = PLANAR + f"masses: [{{mass: 0, link: 1, {center}inertia: {{zz: Im}}}}]"
     body = read_problem(text).robot.bodies[0]
     assert body.mass.is_zero
     assert not body.is_point

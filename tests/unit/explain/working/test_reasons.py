@@ -182,10 +182,19 @@ def test_the_square_of_a_sum_of_decimals_names_its_identities() -> None:
 def test_products_beside_two_rates_are_multiplied_and_what_cancels_is_told() -> None:
     assert "+ b² q̇₁ q̇₂ + b² q̇₂²" in lines(LEANING_AXES, "Kv1")[-2]
     *_, leaning, cancelling = lines(ON_A_CONE, "Kv1")
-    assert "2((√3)² r sin(W) cos(W)/4 - (√3)² r sin(W) cos(W)/4)" in leaning
+    assert "2(3r sin(W) cos(W)/4 - 3r sin(W) cos(W)/4)" in leaning
     assert "(the terms with " in cancelling and cancelling.endswith(" cancel):")
 
 
 def test_a_number_has_its_unit_beside_letters() -> None:
     page = normal(PAN_TILT)
     assert "η₁ = 0.3 m" in page and "[0 0 -9.81]ᵀ m/s² g = 9.81 m/s²" in page
+
+
+def test_an_identity_has_the_angle_of_the_lines() -> None:
+    page = normal("""
+gravity: [-g, 0, 0]
+dh: [{theta: q1* + 45deg, a: a1, alpha: 180deg}, {theta: q2*, a: a2}]
+masses: [{mass: m, link: 2, center: tip}]
+""")
+    assert "sin²(q₂ - q₁ - 45°) + cos²(q₂ - q₁ - 45°) = 1" in page and "q₁ - q₂" not in page
