@@ -199,7 +199,7 @@ def _combined(context: Context, shown: EquilibriaForms, found: Equilibria) -> tu
     )
     rows = tuple(next((one for one in ways if one in said), ways[0]) for ways in both)
     is_new = not said.issuperset(rows) and not own.issuperset(found.rows)
-    return rows if is_new and not _is_never(found) else ()
+    return rows if is_new and not found.is_convex and not _is_never(found) else ()
 
 
 def _combined_by(found: Equilibria, where: Prose, constrained: bool) -> Prose:
@@ -238,6 +238,13 @@ def _of_cases(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterat
     else:
         for value, zero in found.only:
             yield _only(shown, value, zero)
+        if found.is_convex:
+            yield (
+                "In every configuration each entry on the diagonal of ",
+                _DG,
+                " is more than the sizes of the others in its row together: the potential energy is convex, "
+                "and has no other equilibrium.",
+            )
         for value in dict.fromkeys(one.expr for case in found.alternatives for one in case):
             yield from _in_numbers(shown, value)
         yield from shown.existence("equilibria", found.exist, found.is_seen)

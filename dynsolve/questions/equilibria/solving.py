@@ -106,7 +106,8 @@ class Equilibria(Struct, frozen=True):
     `exist` is what the parameters must satisfy for each to be there.  All this is so where none of the
     `special` is; where there `may_be_others`, that are not told, for general parameters.  With constraints
     each is without the sets that are `excluded`, and further sets on which there are no multipliers are left
-    out if not `is_whole`; where the rows of A_c `may_be_dependent` nothing is known.  `never` has conditions
+    out if not `is_whole`; where the rows of A_c `may_be_dependent` nothing is known.  Of an energy that
+    `is_convex` there is one at most.  `never` has conditions
     that are no case, and what is not 0 where they hold.  Of what `is_seen` the inequalities are all.  Of the
     `singular` it is not known whether they are equilibria: coordinates, from 0, that they fix move no body.
     """
@@ -124,6 +125,7 @@ class Equilibria(Struct, frozen=True):
     is_seen: tuple[bool, ...] = ()
     singular: tuple[tuple[Alternative, tuple[int, ...]], ...] = ()
     only: tuple[tuple[Expr, Expr], ...] = ()
+    is_convex: bool = False
 
 
 def held_elsewhere(found: Equilibria, number: int, without: Alternative) -> list[int]:
@@ -210,7 +212,8 @@ class _Search:
 
     def found(self, forces: Matrix, inertia: Matrix | None, may_be_held: bool) -> Equilibria:
         """The equilibria; raises TooLong."""
-        alternatives, settled = self._alternatives()
+        rest = None if self.held else self._only_rest(forces)
+        alternatives, settled = (rest, None) if rest else self._alternatives()
         if self.held is None:
             alternatives = tuple(dict.fromkeys(one for case in alternatives for one in self._narrowed(case)))
         excluded = dict(settled.pairs) if settled else {}
@@ -240,12 +243,32 @@ class _Search:
             may_be_others=special.is_open or self.of_rank.is_open or len(short) < len(special.factors),
             excluded=tuple(excluded.get(one, ()) for one in exist),
             is_whole=settled is None or settled.is_whole,
-            may_be_dependent=settled is None,
+            may_be_dependent=self.held is not None and settled is None,
             never=(*special.never, *never),
             is_seen=tuple(_is_seen(one, self.signs) for one in exist),
             singular=tuple(singular.items()),
             only=tuple(self.only.items()),
+            is_convex=rest is not None,
         )
+
+    def _only_rest(self, forces: Matrix) -> tuple[Alternative, ...] | None:
+        """Where the forces are 0 at quarter turns, if they can be so once: springs that are stiff enough."""
+        ring, signs = self.robot.ring, ParameterSigns(self.robot.questions.model.assumed)
+        places = range(len(ring.names))
+        second = [[ring.diff(force, k) for k in places] for force in forces.entries]
+        is_linear = not any(ring.depends_on_coordinates(entry) for row in second for entry in row)
+        if is_linear or len(places) == 1 or len(wanted_rows(self.robot)) < len(places):
+            return None
+        for k, row in enumerate(second):
+            ways = product(*({entry, -entry} for entry in (*row[:k], *row[k + 1 :])))
+            for least in (sum(way, start=row[k]) for way in ways):
+                if not signs.is_positive(least) and not is_positive_throughout(least, signs):
+                    return None
+        for pose in zeros_at_quarters(forces.entries):
+            each = [(ring.symbol(name), radians(ring, pose.get(name, 0))) for name in ring.names]
+            zeros = [self.there(q - at) for q, at in each if at is not None]
+            return common_zeros(zeros) if len(zeros) == len(each) else None
+        return None
 
     def _narrowed(self, case: Alternative) -> tuple[Alternative, ...]:
         """A case with q = 0 for an equation in q that is 0 there alone, as it grows with q everywhere."""

@@ -1043,7 +1043,7 @@ def test_a_product_is_not_lost_when_rows_are_combined() -> None:
     spring = "springs: [{energy: k/2*(r*cos(q1) + l*cos(q1 + q2) - x0)^2}]\nfind:"
     solution = dynsolve.solve(crank.replace("find:", spring))
     assert solution.to_json()["results"]["equilibria"][1] == ["sin(q2) = 0", "sin(q1) = 0"]
-    assert "-k r l (r + l) (r + l - x_{0})" in solution.to_markdown()
+    assert "k r l (r + l) (x_{0} - r - l)" in solution.to_markdown()
 
 
 def test_what_a_case_asks_for_is_no_factor_of_a_condition() -> None:
@@ -1649,3 +1649,19 @@ masses: [{{mass: m, link: 1}}, {{mass: m, link: 2}}]
 find: [equilibria]
 """)
     assert f"At {pose}: stable." in text and "tan(" not in text
+
+
+@pytest.mark.parametrize(("assumed", "is_told"), [("4*m*g*l", True), ("3*m*g*l", False)])
+def test_springs_that_are_stiffer_than_gravity_leave_one_equilibrium(assumed: str, is_told: bool) -> None:
+    """By Gershgorin: k₁ - m g l (2c₁ + c₁₂) ± m g l c₁₂ > 0 where k₁ > 4 m g l."""
+    text = read(f"""
+gravity: [0, -g, 0]
+dh: [{{theta: q1* + 90deg, a: l}}, {{theta: q2*, a: l}}]
+masses: [{{mass: m, link: 1}}, {{mass: m, link: 2}}]
+springs: [{{stiffness: k1, of: q1}}, {{stiffness: k2, of: q2}}]
+assume: [k1 > {assumed}, k2 > 2*m*g*l]
+find: [equilibria]
+""")
+    convex = "q₁ = 0 and q₂ = 0 Note: In every configuration each entry on the diagonal of ∂𝐠/∂𝐪 is more"
+    assert (convex in text) == is_told
+    assert ("In equilibrium: stable." in text) == is_told
