@@ -9,17 +9,21 @@ and if all of these vanish, the rates vanish one by one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
 
 from dynsolve.algebra import matrix
+from dynsolve.algebra.factors import trig_factors
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
+from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.document import Prose, Reference
 from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
+from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.named_steps import looked_at
 from dynsolve.explain.sanity.determinant import (
     MULTIPLIED_OUT,
@@ -28,6 +32,7 @@ from dynsolve.explain.sanity.determinant import (
     is_positive,
     masses_and_moments,
     said_of,
+    sure_terms,
 )
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.writing import listed, sum_of
@@ -63,9 +68,10 @@ LONGEST_ENTRY = 8
 
 def definite_step(context: Context) -> Step | None:
     """What shows that D is positive definite, or always singular; None where neither is seen."""
-    if context.robot.n < 2 or any(_is_of_no_body(context, body) for body in context.robot.bodies):
+    if any(_is_of_no_body(context, body) for body in context.robot.bodies):
         return None
-    return _by_entries(context) or _by_bodies(context) or _singular(context)
+    shown = None if context.robot.n < 2 else _by_entries(context) or _by_bodies(context)
+    return shown or _singular(context)
 
 
 def _singular(context: Context) -> Step | None:
@@ -82,8 +88,11 @@ def _singular(context: Context) -> Step | None:
     elif any(equal):
         reason = "In every pose rows {i} and {j} of $𝐃$ are equal, so {det}"
     form = context.show(value)
-    places = [equation(factor, ZERO) for factor in _vanishing(context, form)]
-    if not (value.is_zero or places) or cost(form) > LONGEST:
+    if cost(form) > LONGEST:
+        return None
+    poses = [equation(factor, ZERO) for factor in _vanishing(context, form)]
+    equals = [] if value.is_zero else [*_equal_parameters(context, value)]
+    if not (value.is_zero or poses or equals):
         return None
     told = say(
         reason + ": some rates that are not 0 have no kinetic energy, and the forces do not determine all "
@@ -92,12 +101,12 @@ def _singular(context: Context) -> Step | None:
         zero=zero,
         i=equal[0],
         j=equal[1],
-        places=listed(places, "or"),
+        places=listed([*poses, *equals], "or"),
     )
-    title = "has no inverse" if value.is_zero else "has no inverse in some poses"
+    where = " in some poses" if poses else " for some parameters" if equals else ""
     return Step(
         id="definite",
-        title=f"Check: the inertia matrix {title}",
+        title=f"Check: the inertia matrix has no inverse{where}",
         why=told,
         source=spong("7.5.1"),
         outcome=told,
@@ -115,6 +124,16 @@ def _vanishing(context: Context, form: Node) -> list[Node]:
         if (isinstance(base, Function) and base.name in ("sin", "cos") and names_in(base) & {*names})
         or (isinstance(base, Symbol) and base.name in names)
     ]
+
+
+def _equal_parameters(context: Context, value: Expr) -> Iterator[Node]:
+    """R = r, where R - r is a factor that is 0 for some positive parameters."""
+    signs = ParameterSigns(context.robot.questions.model.assumed)
+    for factor, _ in trig_factors(value):
+        has_both = len(factor) == 2 and len({size > 0 for size in factor.poly.coeffs()}) == 2
+        is_open = has_both and not signs.open_part(factor).is_number
+        if is_open and not factor.ring.depends_on_coordinates(factor):
+            yield equation(*Inequalities(context.robot).inequality(Bound(factor)).parts)
 
 
 def _step(
@@ -222,18 +241,24 @@ def _first(context: Context, block: Sequence[int]) -> int | None:
 def _never_zero(context: Context, form: Node) -> Node:
     """I₁ I₂ > 0, a term of a sum that is positive in every pose; M + m s² ≥ M > 0, a factor of a product."""
     if isinstance(form, Sum):
-        return Relation((min(_sure(context, form), key=cost), ZERO), (">",))
+        return Relation((_surest(context, _sure(context, form)), ZERO), (">",))
     factors = form.factors if isinstance(form, Product) else (form,)
     for factor in (each.argument if isinstance(each, Parenthesized) else each for each in factors):
         sure = _sure(context, factor)
         if isinstance(factor, Sum) and len(sure) < len(factor.terms):
-            return Relation((factor, min(sure, key=cost), ZERO), ("≥", ">"))
+            return Relation((factor, _surest(context, sure), ZERO), ("≥", ">"))
     return Relation((form, ZERO), (">",))
 
 
 def _sure(context: Context, form: Node) -> list[Node]:
-    """The terms of a sum that are positive in every pose."""
-    return [term for term in form.terms if _is_positive(context, term)] if isinstance(form, Sum) else []
+    """The terms of a sum that are positive in every pose, or two that are not 0 at once."""
+    known = masses_and_moments(context.robot), frozenset(context.robot.ring.parameters)
+    return sure_terms(form, *known) if isinstance(form, Sum) else []
+
+
+def _surest(context: Context, sure: Sequence[Node]) -> Node:
+    """The shortest of the terms that are positive; two that are not 0 at once together."""
+    return min(sure, key=cost) if _is_positive(context, sure[0]) else sum_of(sure)
 
 
 def _diagonal(context: Context, places: Sequence[int]) -> Prose:
@@ -267,7 +292,7 @@ def _least(context: Context, k: int) -> Node:
     if cost(form) <= LONGEST_ENTRY:
         return Relation((name, form, ZERO), ("=", ">"))
     if sure:
-        return Relation((name, min(sure, key=cost), ZERO), (">", ">"))
+        return Relation((name, _surest(context, sure), ZERO), (">", ">"))
     return Relation((name, ZERO), (">",))
 
 
@@ -352,7 +377,7 @@ def _minors(context: Context, block: Sequence[int]) -> list[Determinant] | None:
 
 
 def _by_sine(form: Node) -> Node:
-    """a - b c² in numbers as a - b + b s², which has no minus where a > b; any other form as it is.
+    """A factor a - b c² in numbers as a - b + b s², which has no minus where a > b; all else as it is.
 
     >>> from dynsolve.notation.unicode import to_unicode
     >>> cosine = Power(Function("cos", Symbol("q")), Number(2))
@@ -360,11 +385,17 @@ def _by_sine(form: Node) -> Node:
     '3 + 2sin²(q)'
     """
     match form:
+        case Product(factors):
+            return Product(tuple(map(_by_sine, factors)))
+        case Parenthesized(argument):
+            return Parenthesized(_by_sine(argument))
+        case Sum((Number() as a, Negative(Power(Function("cos"), Number(2, 1)) as square))):
+            return _by_sine(Sum((a, Negative(Product((Number(1), square))))))
         case Sum(
             (Number() as a, Negative(Product((Number() as b, Power(Function("cos", angle), Number(2, 1))))))
         ):
             rest = Fraction(a.p, a.q) - Fraction(b.p, b.q)
-            return Sum((number(rest), Product((b, Power(Function("sin", angle), Number(2))))))
+            return Sum((number(rest), times(Fraction(b.p, b.q), [(Function("sin", angle), 2)])))
     return form
 
 

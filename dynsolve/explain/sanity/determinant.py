@@ -53,7 +53,12 @@ Names = frozenset[str]
 
 
 def masses_and_moments(robot: Robot) -> Names:
-    """The masses and the moments of inertia of a problem; products of inertia may be negative."""
+    """The masses and the moments of inertia of a problem; products of inertia may be negative.
+
+    Of given energies it is not known which parameters are masses: all that may be.
+    """
+    if not robot.bodies:
+        return with_lengths(robot)
     inertias = [*(body.mass for body in robot.bodies), *(motor.inertia for motor in robot.actions.rotors)]
     names = {name for inertia in inertias for name in _names(inertia)}
     return frozenset((names | _of_tensors(robot, moments=True)) - _of_tensors(robot, moments=False))
@@ -111,8 +116,8 @@ def is_positive(node: Node, positive: Names, constant: Names) -> bool:
         case Power(base, _):
             nonzero = isinstance(base, Symbol) and base.name in constant and not base.dots
             return is_nonnegative(node, positive) and (nonzero or is_positive(base, positive, constant))
-        case Sum(parts):
-            return is_nonnegative(node, positive) and any(is_positive(p, positive, constant) for p in parts)
+        case Sum():
+            return is_nonnegative(node, positive) and bool(sure_terms(node, positive, constant))
         case Product(parts):
             return all(is_positive(part, positive, constant) for part in parts)
         case Quotient(numerator, denominator):
@@ -120,6 +125,25 @@ def is_positive(node: Node, positive: Names, constant: Names) -> bool:
         case Parenthesized(argument) | Function("sqrt", argument):
             return is_positive(argument, positive, constant)
     return isinstance(node, Symbol) and is_nonnegative(node, positive)
+
+
+def sure_terms(node: Sum, positive: Names, constant: Names) -> list[Node]:
+    """The terms that are positive in every pose; without any, two that are not 0 at once: A s² + B c².
+
+    >>> A, B, s, c = *map(Symbol, "AB"), *(Power(Function(f, Symbol("q")), Number(2)) for f in ("sin", "cos"))
+    >>> len(sure_terms(Sum((Product((A, s)), Product((B, c)))), frozenset("AB"), frozenset("AB")))
+    2
+    """
+    sure = [term for term in node.terms if is_positive(term, positive, constant)]
+    turning: dict[tuple[str, Node], Node] = {}
+    for term in () if sure else node.terms:
+        match factors_of(term):
+            case (*rest, Power(Function("sin" | "cos" as name, angle), Number(2, 1))) if all(
+                is_positive(factor, positive, constant) for factor in rest
+            ):
+                turning[name, angle] = term
+    both = ([turning.get((name, angle)) for name in ("sin", "cos")] for _, angle in turning)
+    return sure or next(([one, other] for one, other in both if one and other), [])
 
 
 def sign_of(context: Context, value: Expr) -> int:

@@ -157,6 +157,44 @@ def test_a_body_shows_that_an_entry_is_positive_where_its_terms_do_not() -> None
     assert "body 1 adds m₁ r₁²/2 to d₁₁" in said("box-cylinder-rod-sphere", "definite")
 
 
+TILTING = """
+gravity: [0, 0, -g]
+dh: [{theta: q1*, alpha: -90deg}, {theta: q2*, a: c, alpha: 90deg}]
+masses: [{mass: m, link: 2, center: [0, 0, f], inertia: {xx: Ix, yy: Iy, zz: Iz}}]
+"""
+ENERGY = """
+model:
+  coordinates: {a: revolute, b: revolute}
+  K: m*L^2*(2*a'^2 + b'^2 + 2*a'*b'*cos(a - b))/2
+  P: -m*g*L*(2*cos(a) + cos(b))
+"""
+BOWL = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {t: revolute}
+  bodies: [{mass: m, at: [(R - r)*sin(t), -(R - r)*cos(t), 0], turn: t - R*t/r, inertia: {zz: m*r^2/2}}]
+"""
+
+
+def test_terms_that_never_vanish_together_are_positive() -> None:
+    """A s² + B c²: as a rigid body turns, one of its moments or another is always there."""
+    assert "d₁₁ ≥ I_x sin²(q₂) + I_z cos²(q₂) > 0" in said(TILTING, "definite")
+
+
+def test_a_factor_of_a_determinant_is_written_by_the_sine() -> None:
+    """2 - cos² is 1 + sin²; of given energies all parameters may be masses."""
+    step = check(ENERGY, "definite")
+    assert step is not None
+    (shown,) = step.lines[-1].formulas
+    assert to_unicode(shown).endswith("= m² L⁴ + m² L⁴ sin²(b - a)")
+    assert words(step.concluding).endswith("and m² L⁴ > 0. So D is positive definite.")
+
+
+def test_where_parameters_leave_no_inertia_it_is_told() -> None:
+    assert "D has no inverse where R = r:" in said(BOWL, "definite")
+    assert check(BOWL + "assume: [R > r]\nfind: [equilibria, D]\n", "definite") is None
+
+
 def test_without_moments_of_inertia_the_linear_parts_are_left() -> None:
     step = check("in3140-rp", "point_masses")
     assert step is not None
