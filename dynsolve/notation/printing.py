@@ -118,12 +118,12 @@ _CAPITAL = re.compile(r"(?<!^)(?=[A-Z])")
 
 
 def _in_quarters(term: Node) -> Node:
-    """A term with a half, quarters or eighths in front as a fraction."""
+    """A term with a half, quarters or eighths in front as a fraction; 2.5 and 1.5 stay what they are."""
     sign, inner = split_sign(term)
     match inner:
-        case Number(p, q) if q in QUARTERS:
+        case Number(p, q) if p < q and q in QUARTERS:
             inner = Quotient(Number(p), Number(q))
-        case Product((Number(p, q), *others)) if q in QUARTERS:
+        case Product((Number(p, q), *others)) if p < q and q in QUARTERS:
             above = others if p == 1 else [Number(p), *others]
             inner = Quotient(above[0] if len(above) == 1 else Product(tuple(above)), Number(q))
     return inner if sign > 0 else Negative(inner)

@@ -51,6 +51,7 @@ def test_beside_fractions_and_roots_halves_are_fractions() -> None:
     third, quarter, other = term(Fraction(1, 12)), term(Fraction(-1, 4), "x"), term(Fraction(7, 20), "y")
     assert printed(total([third, quarter, other])) == "1/12 - x/4 + 0.35 y"
     assert printed(total([quarter, other])) == "0.35 y - 0.25 x"
+    assert printed(total([third, term(Fraction(5, 2), "x")])) == "1/12 + 2.5 x", "2.5 elsewhere, too"
     assert printed(term(Fraction(3, 4), "sqrt(2)", "x")) == "3√2 x/4"
 
 
