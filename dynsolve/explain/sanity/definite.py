@@ -16,6 +16,7 @@ from itertools import combinations
 from dynsolve.algebra import matrix
 from dynsolve.algebra.factors import trig_factors
 from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.linear_systems import part
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.elimination import ParameterSigns
@@ -35,8 +36,9 @@ from dynsolve.explain.sanity.determinant import (
     sure_terms,
 )
 from dynsolve.explain.step import Line, Step
+from dynsolve.explain.working.squares import without_signs
 from dynsolve.explain.writing import listed, sum_of
-from dynsolve.notation.build import cost, factors_of, times
+from dynsolve.notation.build import cost, times
 from dynsolve.notation.tree import (
     ZERO,
     Function,
@@ -90,9 +92,8 @@ def _singular(context: Context) -> Step | None:
     form = context.show(value)
     if cost(form) > LONGEST:
         return None
-    poses = [equation(factor, ZERO) for factor in _vanishing(context, form)]
-    equals = [] if value.is_zero else [*_equal_parameters(context, value)]
-    if not (value.is_zero or poses or equals):
+    places = [] if value.is_zero else [*_vanishing(context, value)]
+    if not (value.is_zero or places):
         return None
     told = say(
         reason + ": some rates that are not 0 have no kinetic energy, and the forces do not determine all "
@@ -101,9 +102,10 @@ def _singular(context: Context) -> Step | None:
         zero=zero,
         i=equal[0],
         j=equal[1],
-        places=listed([*poses, *equals], "or"),
+        places=listed(places, "or"),
     )
-    where = " in some poses" if poses else " for some parameters" if equals else ""
+    in_poses = names_in(*places) & {*context.robot.ring.names}
+    where = (" in some poses" if in_poses else " for some parameters") if places else ""
     return Step(
         id="definite",
         title=f"Check: the inertia matrix has no inverse{where}",
@@ -114,25 +116,16 @@ def _singular(context: Context) -> Step | None:
     )
 
 
-def _vanishing(context: Context, form: Node) -> list[Node]:
-    """The factors of a form that are a coordinate, or a sine or cosine of some."""
-    bases = [each.base if isinstance(each, Power) else each for each in factors_of(form)]
-    names = context.robot.ring.names
-    return [
-        base
-        for base in bases
-        if (isinstance(base, Function) and base.name in ("sin", "cos") and names_in(base) & {*names})
-        or (isinstance(base, Symbol) and base.name in names)
-    ]
-
-
-def _equal_parameters(context: Context, value: Expr) -> Iterator[Node]:
-    """R = r, where R - r is a factor that is 0 for some positive parameters."""
+def _vanishing(context: Context, value: Expr) -> Iterator[Node]:
+    """Where a factor is 0: a coordinate, a sine or cosine of some; R = r, of parameters that may be alike."""
     signs = ParameterSigns(context.robot.questions.model.assumed)
     for factor, _ in trig_factors(value):
+        form = without_signs(context.show(factor))
         has_both = len(factor) == 2 and len({size > 0 for size in factor.poly.coeffs()}) == 2
-        is_open = has_both and not signs.open_part(factor).is_number
-        if is_open and not factor.ring.depends_on_coordinates(factor):
+        if factor.ring.depends_on_coordinates(factor):
+            if isinstance(form, Function | Symbol):
+                yield equation(form, ZERO)
+        elif has_both and not signs.open_part(factor).is_number:
             yield equation(*Inequalities(context.robot).inequality(Bound(factor)).parts)
 
 
@@ -363,8 +356,8 @@ def _minors(context: Context, block: Sequence[int]) -> list[Determinant] | None:
     D = context.values["D"]
     found: list[Determinant] = []
     for size in range(2, len(block) + 1):
-        places = sorted(block[:size])
-        value = determinant([[D[i, j] for j in places] for i in places])
+        places = tuple(sorted(block[:size]))
+        value = matrix.determinant(part(D, places, places))
         form = _by_sine(context.show(value))
         if cost(form) > LONGEST or not _is_positive(context, form):
             return None
@@ -397,8 +390,3 @@ def _by_sine(form: Node) -> Node:
             rest = Fraction(a.p, a.q) - Fraction(b.p, b.q)
             return Sum((number(rest), times(Fraction(b.p, b.q), [(Function("sin", angle), 2)])))
     return form
-
-
-def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
-    """The determinant of a square matrix, by its rows."""
-    return matrix.determinant(Matrix.of(rows[0][0].ring, rows))

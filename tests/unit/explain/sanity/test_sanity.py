@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
+from dynsolve.algebra.matrix import determinant
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity import CHECKS, CHECKS_OF_LONGER_ARMS, sanity_steps
-from dynsolve.explain.sanity.definite import blocks, definite_step, determinant
+from dynsolve.explain.sanity.definite import blocks, definite_step
 from dynsolve.explain.sanity.determinant import is_nonnegative, is_positive, masses_and_moments
 from dynsolve.explain.step import Step
 from dynsolve.notation.text import read
@@ -357,7 +358,7 @@ def test_what_is_said_of_any_robot_is_true(problem: str) -> None:
     }
     step = definite_step(found)
     if step is not None:
-        value = determinant(found.values["D"].rows)
+        value = determinant(found.values["D"])
         if "no inverse" in step.title:
             assert value.is_zero == step.title.endswith("no inverse")
         else:
@@ -401,6 +402,6 @@ def test_a_pose_puts_values_for_angles() -> None:
 def test_blocks_and_determinants() -> None:
     D = context("elbow-3r").values["D"]
     assert blocks(D) == [[0], [1, 2]]
-    whole: Expr = determinant(D.rows)
+    whole: Expr = determinant(D)
     assert whole == D[0, 0] * (D[1, 1] * D[2, 2] - D[1, 2] * D[1, 2])
     assert masses_and_moments(context("elbow-3r").robot) >= {"m1", "I2xx", "I3zz"}
