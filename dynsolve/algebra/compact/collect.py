@@ -185,10 +185,16 @@ class Collector:
         if factor.denominator != 1 and (self._of_several_bodies(poly) or self._of_powers(poly)):
             factor = 1
         mono = self._worth_drawing(poly, common(poly))
+        if self.has_root(mono):
+            factor = whole_content(poly.values())
         rest = self._divided(poly, mono, factor)
         if (factor != 1 or mono) and self.mostly_negative(rest):
             factor, rest = -factor, {m: -f for m, f in rest.items()}
         return factor, mono, rest
+
+    def has_root(self, mono: Monomial) -> bool:
+        """Whether fractions are drawn out beside a root of a number that is: √2 (a + 4b)/2."""
+        return not self.decimal and any(self.atoms.ranks[atom][0] is Rank.ROOT for atom, _ in mono)
 
     def _of_several_bodies(self, poly: Polynomial) -> bool:
         """Whether terms have different masses and fractions: m₁ r²/2 + m₂ l²/12 stays two terms."""
@@ -276,7 +282,7 @@ class Collector:
         """The common monomial without lengths, coordinates and velocities that stay behind in some terms.
 
         A book writes l² + l a c, and not l (l + a c); and k x + k₃ x³.  Beside a sine or cosine that is drawn
-        out too it writes l (a + l s) c, and of two lengths a b (a + b c).
+        out too it writes l (a + l s) c, of two lengths a b (a + b c), and of fractions l (a + l b/c).
         """
         if len(poly) > SEARCHED or len(poly) == 1:
             return shared
@@ -284,7 +290,7 @@ class Collector:
         stay = {Rank.RATE}
         if not ranks[Rank.TRIG]:
             stay.add(Rank.COORDINATE)
-            if ranks[Rank.PARAMETER] == 1:
+            if ranks[Rank.PARAMETER] == 1 and all(e > 0 for mono in poly for _, e in mono):
                 stay.add(Rank.PARAMETER)
         kept = []
         for atom, exponent in shared:

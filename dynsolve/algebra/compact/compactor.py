@@ -9,13 +9,13 @@ inside, masses outside or inside), the result with fewer operations is taken.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import accumulate
 from operator import mul
 
-from dynsolve.algebra.compact.atoms import RingAtoms
+from dynsolve.algebra.compact.atoms import Rank, RingAtoms
 from dynsolve.algebra.compact.collect import Collector
 from dynsolve.algebra.compact.proof import Proof, plain_form
 from dynsolve.algebra.compact.spelling import in_one_spelling
@@ -28,6 +28,8 @@ from dynsolve.algebra.compact.terms import (
     Polynomial,
     Rational,
     Terms,
+    common,
+    divide,
     exact,
     multiply,
     primitive,
@@ -344,28 +346,38 @@ class Compactor:
         return (1, terms) if finer else (size, rest)
 
     def _without_common(self, terms: Terms) -> tuple[tuple[Rational, Monomial], Terms]:
-        """(the parameters and numbers that all terms share, the rest): l² + l a c keeps its l."""
+        """(the parameters and numbers that all terms share, the rest): l² + l a c keeps its l.
+
+        What they share of a length is drawn out too beside another: b (l² + l a c) is b l (l + a c).
+        """
         factor = self.collector.content(terms.values())
         denominators = {f.denominator for f in terms.values()}
         if factor.denominator != 1 and len(denominators) > 1 and len({e[MASSES] for e in terms}) > 1:
             factor = 1  # m₁ r²/2 + m₂ l²/12
-        monomials = self._atoms.monomials
+        values = self._atoms.monomials.values
         shared: Monomial = ()
+        left: dict[int, int] = {}
         for place in (MASSES, SYMBOLS):
             found = {e[place] for e in terms}
-            powers = [set(monomials.values[number]) for number in found]
-            shared += tuple(sorted(set.intersection(*powers)))
+            drawn = self._shared([values[number] for number in found])
+            left |= {number: self._atoms.monomials.number(divide(values[number], drawn)) for number in found}
+            shared += drawn
+        if self.collector.has_root(shared):
+            factor = whole_content(terms.values())
         if factor == 1 and not shared:
             return (1, ()), terms
-        left: dict[int, int] = {}
-        for number in {number for e in terms for number in e[MASSES:RATES]}:
-            left[number] = monomials.number(
-                tuple(power for power in monomials.values[number] if power not in shared)
-            )
         rest = {
             (*e[:MASSES], left[e[MASSES]], left[e[SYMBOLS]], 0): exact(f, factor) for e, f in terms.items()
         }
         return (factor, shared), rest
+
+    def _shared(self, monos: Sequence[Monomial]) -> Monomial:
+        """The powers that all have; beside one of a length the lengths that all have in some power."""
+        same = set.intersection(*map(set, monos))
+        ranks = self._atoms.table.ranks
+        if any(ranks[atom][0] is Rank.PARAMETER for atom, _ in same):
+            same |= {power for power in common(monos) if ranks[power[0]][0] is Rank.PARAMETER}
+        return tuple(sorted(same))
 
     def _by_masses(self, terms: Terms) -> Node:
         """Σ mass · factor; masses with equal factors are summed first."""

@@ -72,6 +72,9 @@ def compact(text: str) -> str:
         ("m1*(d + a*sin(q1))*d*cos(q1)", "m1*d*cos(q1)*(d + a*sin(q1))"),
         ("a^2*b*cos(q1) + a*b^2*cos(q1 + q2)", "a*b*(a*cos(q1) + b*cos(q1 + q2))"),
         ("a^3*b + a*b^3 + 2*a^2*b^2*cos(q2)", "a*b*(a**2 + b**2 + 2*a*b*cos(q2))"),
+        ("c^2*(a*b + b^2*sin(q1)^2)", "c**2*b*(a + b*sin(q1)**2)"),
+        ("m1*(a*c + a^2/b)", "m1*a*(a/b + c)"),
+        ("sqrt(2)*(a/2 + 2*b)", "sqrt(2)*(a + 4*b)/2"),
     ],
 )
 def test_it_reads_as_a_textbook_prints_it(written: str, printed: str) -> None:
