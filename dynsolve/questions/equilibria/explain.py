@@ -312,7 +312,7 @@ def _rest(context: Context, shown: EquilibriaForms, slid: Mapping[int, Expr]) ->
     rest = [
         Relation((form(-slid[k]), form(force), form(slid[k])), ("≤", "≤"))
         if k in slid
-        else equation(form(force), Number(0))
+        else equation(form(force) if (what := shown.vanishing(force)) == ONE else what, Number(0))
         for k, force in balanced.items()
     ]
     if not balanced.keys() & slid.keys():

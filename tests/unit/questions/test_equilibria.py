@@ -1085,6 +1085,9 @@ find: [equilibria]
     friction = spring.replace("find:", "friction: {x: {coulomb: fc}}\nfind:")
     assert "equilibria are where -f_c ≤ k x ≤ f_c." in read(friction)
     assert "Coulomb" not in read(spring)
+    slide = "model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}"
+    both = re.sub("model: .*", slide, friction).replace("of: x}", "of: x}, {stiffness: k, rest: d, of: y}")
+    assert "equilibria are where -f_c ≤ k x ≤ f_c and y - d = 0." in read(both)
 
 
 def test_what_is_not_stable_is_said_to_be_so_without_coulomb_friction() -> None:
@@ -1099,7 +1102,7 @@ friction: {q: {coulomb: 2*mu}}
 find: [equilibria]
 """
     told = read(pendulum)
-    assert "the equilibria are where k x = 0 and -2μ ≤ m g l sin(q) ≤ 2μ." in told
+    assert "the equilibria are where x = 0 and -2μ ≤ m g l sin(q) ≤ 2μ." in told
     assert "not stable. All this is without Coulomb friction, which can hold what is not stable." in told
     assert "All this" not in read(pendulum.replace("-l*cos(q)", "0"))
     on_the_slide = read(pendulum.replace("friction: {q:", "friction: {x:"))
