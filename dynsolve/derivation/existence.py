@@ -99,16 +99,25 @@ def is_seen(values: Sequence[Expr], signs: ParameterSigns) -> bool:
 
 
 def _without_solved(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
-    """The values that are no odd polynomial in a coordinate that stands in no other one."""
-    kept = []
+    """The values without those that a coordinate of their own makes 0, one after the other."""
     for value in values:
         others = [other for other in values if other is not value]
         own = {*coordinates_in(value)}.difference(*map(coordinates_in, others))
         degrees = {name: int(value.poly.degrees()[value.ring.symbol_indices[name, 0]]) for name in own}
         leading = (_leading(value, name, degree) for name, degree in degrees.items() if degree % 2)
-        if not any(_is_never_zero(one, others, signs) for one in leading):
-            kept.append(value)
-    return kept
+        if _is_turned_to_0(value, own) or any(_is_never_zero(one, others, signs) for one in leading):
+            return _without_solved(others, signs)
+    return list(values)
+
+
+def _is_turned_to_0(value: Expr, own: Iterable[str]) -> bool:
+    """Whether a value is a single swing whose angle one of these coordinates turns."""
+    swings = _swings(value)
+    moving = [n for n in swings or () if any(n)]
+    if swings is None or len(moving) != 1 or not _constant(swings, value.ring).is_zero:
+        return False
+    pairs = zip(moving[0], _turning(value.ring), strict=True)
+    return not {*own}.isdisjoint(name for times, pair in pairs if times for name in names_of(pair.angle))
 
 
 def _is_never_zero(value: Expr, zeros: Iterable[Expr], signs: ParameterSigns) -> bool:

@@ -1668,3 +1668,15 @@ find: [equilibria]
     convex = "q₁ = 0 and q₂ = 0 Note: In every configuration each entry on the diagonal of ∂𝐠/∂𝐪 is more"
     assert (convex in text) == is_told
     assert ("In equilibrium: stable." in text) == is_told
+
+
+def test_a_spring_that_is_wound_up_holds_any_weight() -> None:
+    """A cos(q₁ + q₂) is 0 for any q₁, and k q₁ outgrows what gravity does."""
+    text = read("""
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: a}, {theta: q2*, a: b}]
+masses: [{mass: m, link: 1, center: [x, y, 0]}, {mass: M, link: 2, center: [u, v, 0]}]
+springs: [{stiffness: k, of: q1}]
+find: [equilibria]
+""")
+    assert "k q₁ = 0 and" in text and "For which parameters" not in text
