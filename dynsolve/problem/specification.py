@@ -187,9 +187,9 @@ BODY = Keyed(
         Key(
             "center",
             PLACE,
-            "The mass centre. Default tip, for a point.",
+            "The mass centre. Default tip, for a point and for mass 0.",
             "midpoint",
-            "`tip`, for a point",
+            "`tip`, for a point and for mass 0",
             remedy="write tip, origin, midpoint, {along: 1/2}, {near: [lc1, 0, 0]} or [x, y, z]",
         ),
         Key(
