@@ -282,21 +282,19 @@ class Collector:
         """The common monomial without lengths, coordinates and velocities that stay behind in some terms.
 
         A book writes l² + l a c, and not l (l + a c); and k x + k₃ x³.  Beside a sine or cosine that is drawn
-        out too it writes l (a + l s) c, of two lengths a b (a + b c), and of fractions l (a + l b/c).
+        out too it writes l (a + l s) c, of two such lengths a b (a + b c), and of fractions l (a + l b/c).
         """
         if len(poly) > SEARCHED or len(poly) == 1:
             return shared
-        ranks = Counter(self.atoms.ranks[atom][0] for atom, _ in shared)
+        uneven = [atom for atom, _ in shared if len({dict(mono)[atom] for mono in poly}) > 1]
+        ranks = {self.atoms.ranks[atom][0] for atom, _ in shared}
+        lengths = [atom for atom in uneven if self.atoms.ranks[atom][0] is Rank.PARAMETER]
         stay = {Rank.RATE}
-        if not ranks[Rank.TRIG]:
+        if Rank.TRIG not in ranks:
             stay.add(Rank.COORDINATE)
-            if ranks[Rank.PARAMETER] == 1 and all(e > 0 for mono in poly for _, e in mono):
+            if len(lengths) == 1 and all(e > 0 for mono in poly for _, e in mono):
                 stay.add(Rank.PARAMETER)
-        kept = []
-        for atom, exponent in shared:
-            left = {dict(mono)[atom] - exponent for mono in poly}
-            if self.atoms.ranks[atom][0] not in stay or len(left) == 1:
-                kept.append((atom, exponent))
+        kept = [(a, e) for a, e in shared if a not in uneven or self.atoms.ranks[a][0] not in stay]
         return tuple(kept)
 
     def product(self, factor: Rational, mono: Monomial, more: tuple[Node, ...]) -> Node:

@@ -348,7 +348,7 @@ class Compactor:
     def _without_common(self, terms: Terms) -> tuple[tuple[Rational, Monomial], Terms]:
         """(the parameters and numbers that all terms share, the rest): l² + l a c keeps its l.
 
-        What they share of a length is drawn out too beside another: b (l² + l a c) is b l (l + a c).
+        What they share of a length is drawn out too beside a square: b² (l² + l a c) is b² l (l + a c).
         """
         factor = self.collector.content(terms.values())
         denominators = {f.denominator for f in terms.values()}
@@ -372,10 +372,10 @@ class Compactor:
         return (factor, shared), rest
 
     def _shared(self, monos: Sequence[Monomial]) -> Monomial:
-        """The powers that all have; beside one of a length the lengths that all have in some power."""
+        """The powers that all have; beside a square of a length the lengths that all have in some power."""
         same = set.intersection(*map(set, monos))
         ranks = self._atoms.table.ranks
-        if any(ranks[atom][0] is Rank.PARAMETER for atom, _ in same):
+        if any(ranks[atom][0] is Rank.PARAMETER and e != 1 for atom, e in same):
             same |= {power for power in common(monos) if ranks[power[0]][0] is Rank.PARAMETER}
         return tuple(sorted(same))
 

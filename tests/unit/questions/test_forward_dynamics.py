@@ -207,7 +207,7 @@ def test_what_is_long_has_an_inverse_by_entries_and_one_denominator_and_stands_o
     assert "det 𝐃 = d₂₂ (d₁₁ d₃₃ - d₁₃²) - d₁₂² d₃₃" in shown
     assert shown.count("q̈₁ = ") == 1 and "has the accelerations 𝐪̈ as functions of the forces." in shown
     assert "Christoffel symbols Γ₁₁₁, Γ₁₁₂, …, Γ₃₃₃ and the accelerations" in shown
-    one = "(b (4m₂ J (3r² n² + l² (1 + n² - 2n) + 3r l n (n - 1) c₂)"
+    one = "(b (4m₂ J (3r² n² + l² (1 + n² - 2n) + 3r l (n² - n) c₂)"
     assert shown.count(one) == 2 and f"(m₃ b² {one[3:]}" in shown
 
 
