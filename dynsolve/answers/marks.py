@@ -366,7 +366,7 @@ class _Substance:
     def _key(self, name: str) -> Any:
         """The key's value of an answer, None where there is none; of an entry of C that of its row of C q̇."""
         whole, entry = self.hand_in.graph.quantities.entry_of(name)
-        if whole == "C" and entry:
+        if whole == "C" and entry and "Cqd" in self.hand_in.answer_ring.rules:
             return self.hand_in.graph.key("Cqd")[entry[0], 0]
         target = self.hand_in.compare.target(name)
         quantity = self.hand_in.graph.quantities.get(name)

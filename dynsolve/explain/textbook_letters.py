@@ -7,8 +7,9 @@ A line of a table is
     signs | meaning | unit            𝐃, d_ij | inertia matrix | kg m^2
     sign: words; sign: words | ...    𝐃: inertia matrix; d_ij: its entries | | kg m^2
 
-where each sign has words of its own, and the meaning follows these.  Names in braces are values; a line with
-a value that a robot does not have is left out.  A star marks what goes beyond the derivation of the course.
+where each sign has words of its own, and the meaning follows these.  Names in braces are values, such as the
+letters of `quantities.letters`; a plain letter without an index is a parameter's.  A line with a value that a
+robot does not have is left out.  A star marks what goes beyond the derivation of the course.
 """
 
 from __future__ import annotations

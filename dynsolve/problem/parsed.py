@@ -112,7 +112,7 @@ class ParsedFile(Struct, frozen=True):
             named=self.questions.names,
             stages=frozenset(ASKED_FOR),
             constraints=self.questions.constraints,
-            given=self.questions.needed
+            given=self.questions.keys
             | frozenset(
                 name
                 for name, there in (

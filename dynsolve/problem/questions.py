@@ -60,7 +60,10 @@ class ParsedTask(Struct, frozen=True):
 
 
 class ParsedQuestions(Struct, frozen=True):
-    """What a file asks around the model; `of` is what it gives for each question that has keys of its own."""
+    """What a file asks around the model; `of` is what it gives for each question that has keys of its own.
+
+    `keys` are those of the file, which families may need (`Family.needs`).
+    """
 
     points: tuple[ParsedPoint, ...] = ()
     task: ParsedTask | None = None
@@ -68,6 +71,7 @@ class ParsedQuestions(Struct, frozen=True):
     reached_state: Span | None = None
     """Where the file says that the state is the configuration that reaches the target."""
     of: Mapping[Stage, Given] = {}
+    keys: frozenset[str] = frozenset()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -79,11 +83,6 @@ class ParsedQuestions(Struct, frozen=True):
         """How many constraints there are."""
         given = self.of.get(Stage.CONSTRAINTS)
         return len(given.moving) if given else 0
-
-    @property
-    def needed(self) -> frozenset[str]:
-        """What families need that is given (`Family.needs`)."""
-        return frozenset().union(*(given.needed for given in self.of.values()))
 
     @property
     def constant(self) -> Iterator[Cell]:
@@ -147,6 +146,7 @@ def read_questions(
         read_state(faults, fields.get("state"), coordinates),
         fields.span_of("state") if is_reached(fields.get("state")) else None,
         {stage: stage.part("file").read(faults, fields, around) for stage in _asking(fields)},
+        frozenset(fields),
     )
 
 
@@ -274,7 +274,7 @@ def with_questions(
         is_drawn=is_drawn,
         state_is_reached=parsed.reached_state is not None,
     )
-    asks_of_tip = parsed.needed & {"velocity", "acceleration"} or Stage.TASK in asked_stages(questions)
+    asks_of_tip = parsed.keys & {"velocity", "acceleration"} or Stage.TASK in asked_stages(questions)
     if questions.task is None and (asks_of_tip or parsed.reached_state):
         questions = replace(questions, task=default_task(robot))
     if questions.task is not None:

@@ -59,8 +59,7 @@ class Given(Struct, frozen=True):
     """What a file gives for a question: its values, those that are `constant` and those that may be `moving`.
 
     `targeted` are those that are numbers alone.  `states` are values of coordinates, of which the ring must
-    hold the sines and cosines, as those of the `rotations`; `needed` are names of what families need
-    (`Family.needs`).
+    hold the sines and cosines, as those of the `rotations`.
     """
 
     constant: tuple[Cell, ...] = ()
@@ -68,7 +67,6 @@ class Given(Struct, frozen=True):
     targeted: tuple[Cell, ...] = ()
     states: tuple[ParsedState, ...] = ()
     rotations: tuple[ParsedRotation, ...] = ()
-    needed: frozenset[str] = frozenset()
 
 
 def is_reached(node: YamlNode | None) -> bool:

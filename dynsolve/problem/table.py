@@ -381,7 +381,7 @@ def coordinate_name(faults: Faults, node: YamlNode, example: str) -> str | None:
         return normalize(node.text.removesuffix("*"))
     except ReadError as error:
         at = node.start + error.offset
-        faults.error((at, at + error.length), error.message, error.help)
+        faults.error((at, at + error.length), error.message, example)
         return None
 
 

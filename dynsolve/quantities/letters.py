@@ -119,7 +119,6 @@ LAMBDA = bold("lambda")
 LINEAR_A = bold("A", Words("lin"))
 LINEAR_B = bold("B", Words("lin"))
 TASK_INERTIA = bold("Lambda")
-DET = Row((Words("det "), bold("J", Symbol("r"))))
 NULLSPACE = Row((Letter("N", style="script"), Parenthesized(bold("J", Symbol("r")))))
 RANGESPACE = Row((Letter("R", style="script"), Parenthesized(bold("J", Symbol("r")))))
 LOST = Row((Letter("N", style="script"), Parenthesized(Transpose(bold("J", Symbol("r"))))))
@@ -269,6 +268,18 @@ def time_derivative(of: Node) -> Derivative:
 def transposed_product(left: Node, middle: Node | None = None) -> Product:
     """xᵀ x, or xᵀ M x"""
     return Product(tuple(part for part in (Transpose(left), middle, left) if part is not None))
+
+
+def square_of(J: Node, rows: int, columns: int) -> Node:
+    """J, or the smaller of (J Jᵀ) and (Jᵀ J) where J is not square: what has a determinant."""
+    if rows == columns:
+        return J
+    return Parenthesized(Product((J, Transpose(J)) if rows < columns else (Transpose(J), J)))
+
+
+def determinant(J: Node, rows: int, columns: int) -> Row:
+    """det J, or that of the smaller of (J Jᵀ) and (Jᵀ J)."""
+    return Row((Words("det "), square_of(J, rows, columns)))
 
 
 def entry(letter: str, *indices: int) -> Letter:

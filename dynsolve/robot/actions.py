@@ -7,13 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from dynsolve.algebra.ring import Expr
 from dynsolve.robot.units import Dimension
-
-if TYPE_CHECKING:
-    pass
 
 Values = Mapping[str, float]
 """Numbers of parameters, coordinates and rates by their names."""

@@ -166,7 +166,7 @@ H = Family(
     shape=(4, 4),
     letter=letters.H,
     json="H",
-    spellings=("T{i}", "H0{i}", "T0{i}"),
+    spellings=("T{i}", "H0{i}", "T0{i}", "H{i}w"),
     terms=("forward kinematics", "fk", "pose", "homogeneous transformation"),
 )
 

@@ -32,7 +32,6 @@ def read(faults: Faults, fields: Fields, around: Around) -> GivenEquilibrium:
         constant=tuple(cell for state in (linearize, steady) if state for cell in state.cells.values()),
         moving=_read_balanced(faults, fields.get("balance"), len(around.coordinates)),
         states=(linearize,) if linearize else (),
-        needed=frozenset({"linearize"} if linearize else ()),
         linearize=linearize,
         steady=steady,
         inputs_given=inputs is not None,

@@ -206,7 +206,7 @@ class _System:
         if self.rank < self.columns and self.weights is not None:
             yield equation(letters.WEIGHTS, show(self.weights))
         elif self.rank in J.shape and self.rank and work(squared(J)) <= MOST_PRODUCTS:
-            yield equation(formula("det {of}", of=square_of(_J, J)), show(determinant(squared(J))))
+            yield equation(letters.determinant(_J, *J.shape), show(determinant(squared(J))))
         if self.rank < min(J.shape) and not self.solvable:
             square, right = show(J.T @ J), show(J.T @ self.right)
             if is_small(square, right):
@@ -238,14 +238,6 @@ def _none(context: Context, J: Matrix, right: Matrix) -> Prose:
     if not is_small(*these):
         return ("no solution in general",)
     return say("a solution only where {these}", these=listed([equation(one, ZERO) for one in these]))
-
-
-def square_of(letter: Node, matrix: Matrix) -> Node:
-    """J, or the smaller of (J Jᵀ) and (Jᵀ J) where J is not square: what has a determinant."""
-    rows, columns = matrix.shape
-    if rows == columns:
-        return letter
-    return formula("({J} {J}ᵀ)" if rows < columns else "({J}ᵀ {J})", J=letter)
 
 
 # -- what the joints and the task can do -----------------------------------------------------------

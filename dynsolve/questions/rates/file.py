@@ -59,7 +59,6 @@ def read(faults: Faults, fields: Fields, around: Around) -> GivenRates:
     return GivenRates(
         constant=tuple(cell for row in weights.rows for cell in row) if weights else (),
         moving=tuple(cell for one in rates for cell in one.cells),
-        needed=frozenset(one.key for one in rates),
         rates=rates,
         weights=weights,
     )

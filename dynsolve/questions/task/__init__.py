@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dynsolve.notation.tree import Node
 from dynsolve.quantities import letters
 from dynsolve.quantities.family import Family, Owner, of_point, of_robot
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
 from dynsolve.robot.units import LENGTH, NONE, PER_SECOND, VELOCITY
 
 P_POINT = Family(
@@ -141,11 +143,21 @@ JR_DOT = Family(
 )
 
 
+def _determinant(robot: Robot) -> Node:
+    """Of J of six joints without a task, or of that of the task."""
+    from dynsolve.questions.rates.derive import whole_or_task
+
+    if whole_or_task(robot) == "J":
+        return letters.determinant(letters.J, 6, 6)
+    task = robot.questions.task
+    return letters.determinant(letters.J_TASK, task.rows if task else robot.n, robot.n)
+
+
 DET = Family(
     name="det",
     called="the determinant",
     stage=Stage.TASK,
-    letter=of_robot(letters.DET),
+    letter=_determinant,
     spellings=("detJ", "detJr", "detJJT", "Delta"),
     terms=("determinant", "jacobian determinant"),
 )

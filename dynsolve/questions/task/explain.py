@@ -35,7 +35,6 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
 from dynsolve.questions.rates.derive import squared, whole_or_task
-from dynsolve.questions.rates.explain import square_of
 from dynsolve.questions.set_forms import SetForms
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of
@@ -148,7 +147,7 @@ def _determinant(context: Context) -> Step:
             lines="rows" if rows < columns else "columns",
         )
     shown = context.show(squared(context.values[name]))
-    letter = formula("det {of}", of=square_of(J, context.values[name]))
+    letter = letters.determinant(J, rows, columns)
     value = context.values["det"]
     by_minors = not isinstance(value, Skipped) and context.form("det") != context.forms.products.form(value)
     way = (

@@ -44,7 +44,9 @@ def test_what_new_writes_as_a_comment_can_be_uncommented() -> None:
     beside_a_table = [name for name in PROBLEM.names if name not in (*DRAWING, "model", *MATRICES)]
     whole = re.sub(rf"^# (?=(?:{'|'.join(beside_a_table)}):)", "", template(), flags=re.MULTILINE)
     assert list(yaml.safe_load(whole)) == beside_a_table
-    whole = whole.replace("find: [tau, D, C, g]", "find: [tau, D, C, g, pP, r, inverse, Q, qd, qdd]")
+    served = {key.serves[0] for key in PROBLEM.keys if key.serves}
+    asked = ["tau", "D", "C", "g", "pP", "Q", *sorted(served)]
+    whole = whole.replace("find: [tau, D, C, g]", f"find: [{', '.join(asked)}]")
     holds(whole)
     assert not lint_text(whole)
 

@@ -359,8 +359,9 @@ class ScriptCursor(Cursor):
         form.end = self.tokens[max(self.position - 1, 0)].end
 
     def raised_index(self, form: Form) -> bool:
-        r"""Whether an index stands above a name, which is taken: `\tau^{(2)}` is tau2, `Q^{nc}` Q."""
-        vocabulary, ahead = self.vocabulary, 2 if self.peek().kind == "{" else 1
+        r"""Whether an index stands above a name, which is taken: `\tau^{(2)}`, `I_1^b`, `Q^{nc}`."""
+        braced = self.peek().kind == "{"
+        vocabulary, ahead = self.vocabulary, 2 if braced else 1
         inside = [self.peek(ahead + i) for i in range(3)]
         named = vocabulary.named(form.key)
         if [t.kind for t in inside] == ["(", "number", ")"]:
@@ -368,6 +369,8 @@ class ScriptCursor(Cursor):
             if vocabulary.symbol(name) is None and not vocabulary.named(name):
                 return False
             form.index += inside[1].text
+        elif self._is_letter_of_frame(inside, braced) and vocabulary.named(form.key + inside[0].text):
+            form.index += inside[0].text
         else:
             is_force = all(vocabulary.quantities[one].family in _FORCES for one in named)
             is_mark = inside[0].text in _OF_FORCES and (named or DRIVING.fullmatch(form.key))
@@ -376,6 +379,12 @@ class ScriptCursor(Cursor):
         self.take()
         self.group()
         return True
+
+    @staticmethod
+    def _is_letter_of_frame(inside: list[Token], braced: bool) -> bool:
+        """Whether a superscript is a letter, and no transpose."""
+        first, second, _ = inside
+        return first.kind == "name" and first.text not in _TRANSPOSES and (not braced or second.kind == "}")
 
     def bracketed_index(self, form: Form) -> str:
         """The index in brackets, which is taken, of a name with it: `m[1]`, `q[2](t)`, `D[0,0]`, `D[0][0]`.

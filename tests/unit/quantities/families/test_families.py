@@ -8,13 +8,16 @@ import pytest
 
 import dynsolve
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.reading.files import FileReader
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules, derive
+from dynsolve.notation.markup import to_latex
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import families
 from dynsolve.quantities.families import FAMILIES
-from dynsolve.quantities.index import quantities
+from dynsolve.quantities.family import Kind
+from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Robot
 from tests.support import STEMS
@@ -79,6 +82,31 @@ def test_every_answer_is_called_something() -> None:
 def test_every_answer_has_a_letter(stem: str) -> None:
     for quantity in quantities(robot(stem)).answers():
         assert to_unicode(quantity.letter(robot(stem)), PLAIN)
+
+
+@pytest.mark.parametrize(
+    "stem", [*SMALL, "inf3480-painting-rrp", "planar-3r-redundant", "knife-edge", "crane"]
+)
+def test_what_is_printed_for_an_answer_is_read_as_that_answer(stem: str) -> None:
+    """So a student may write what the sheet asks for in its own letters."""
+    reader, missed = FileReader(dynsolve.load(stem)), []
+    for quantity in quantities(robot(stem)).answers():
+        is_of_bodies = quantity.family is families.CQD and not robot(stem).has_dynamics
+        if quantity.family.kind is Kind.VALUE and not is_of_bodies:
+            text = f"$$ {to_latex(quantity.letter(robot(stem)))} = {_numbers(quantity, robot(stem).n)} $$"
+            answers = reader(text, "a.md").answers
+            if quantity.name not in {name for one in answers for name in (one.name, *one.alternatives)}:
+                missed.append(text)
+    assert missed == []
+
+
+def _numbers(quantity: Quantity, n: int) -> str:
+    """A value of the shape of a quantity, in LaTeX."""
+    if not quantity.shape:
+        return "7771"
+    rows, columns = (size if isinstance(size, int) else n for size in quantity.shape)
+    row = " & ".join(["7771"] * columns)
+    return r"\begin{bmatrix} " + r" \\ ".join([row] * rows) + r" \end{bmatrix}"
 
 
 SHARED = [
