@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 
+from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr
@@ -21,7 +21,7 @@ from dynsolve.notation.characters import split
 from dynsolve.notation.printing import Style, decimal_text
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Convention, JointType, Robot
+from dynsolve.robot.model import Convention, Robot
 from dynsolve.robot.names import names_taken
 
 if TYPE_CHECKING:
@@ -161,15 +161,19 @@ def is_short(robot: Robot, values: Derivation) -> bool:
 
 
 def style_of(robot: Robot) -> Style:
-    """The style of a robot: s_1 for sin θ_1 unless something else is called like one, as a length c_2."""
-    subscripts = {
-        q.name: ",".join(split(q.name)[1]) for q in robot.coordinates if q.type is JointType.REVOLUTE
-    }
-    counts = Counter(subscripts.values())
-    taken = names_taken(robot)
-    shorthand = {name: s for name, s in subscripts.items() if s and counts[s] == 1}
-    if any(name[:1] in ("s", "c") and name[1:].replace(",", "").isdecimal() for name in taken):
-        shorthand = {}  # no cos(q_1) beside c_3
+    """The style of a robot: s_1 for sin θ_1, of all sines and cosines or of none.
+
+    None is short where one would have no index or that of another, or where something else is called like
+    one, as a length c_2: there is no cos(q_1) beside c_3.
+    """
+    in_angles = {name for pair in robot.ring.pairs for name in names_of(pair.angle)}
+    turning = [q.name for q in robot.coordinates if q.name in in_angles]
+    shorthand = {name: ",".join(split(name)[1]) for name in turning}
+    is_taken = any(
+        name[:1] in ("s", "c") and name[1:].replace(",", "").isdecimal() for name in names_taken(robot)
+    )
+    if is_taken or not all(shorthand.values()) or len({*shorthand.values()}) < len(turning):
+        shorthand = {}
     return Style(shorthand=shorthand, star=True, decimal=robot.has_decimals)
 
 

@@ -44,7 +44,6 @@ from dynsolve.notation.tree import (
     Transpose,
     Words,
     children,
-    walk,
 )
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import letters
@@ -89,14 +88,12 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
 
 
 def _with_free_shorthands(robot: Robot, style: Style) -> Style:
-    """The style without the shorthands that look like a name of the problem: c_12 where that is a length."""
+    """The style; where a shorthand looks like a name of the problem, as c_12 for a length, without any."""
     own = (*robot.parameters, *(q.name for q in robot.coordinates))
     names = {UnicodePrinter().text(Symbol(name)) for name in own}
     write = UnicodePrinter(style).text
-    clashing = [node for node in shorthands(robot, style) if write(node) in names]
-    given_up = {part.name for node in clashing for part in walk(node) if isinstance(part, Symbol)}
-    kept = {name: index for name, index in style.shorthand.items() if name not in given_up}
-    return replace(style, shorthand=kept)
+    clash = any(write(node) in names for node in shorthands(robot, style))
+    return replace(style, shorthand={}) if clash else style
 
 
 def shorthands(robot: Robot, style: Style) -> Iterator[Function]:

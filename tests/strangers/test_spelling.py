@@ -90,7 +90,9 @@ def test_results_are_written_as_books_write_them(case: str) -> None:
 
 
 def test_no_angle_is_written_out_beside_shorthands() -> None:
-    """c1 is a distance: so there is no c₂ either."""
+    """c1 is a distance: so there is no c₂ either; nor beside cos φ, which has no index."""
+    beside = "dh: [{theta: phi*, a: a}, {theta: q2*, a: b}]\nmasses: [{mass: m, link: 2}]\nfind: [D]\n"
+    assert not dynsolve.solve(beside).style.shorthand
     solution = dynsolve.solve(OWN["hollow cylinders"].replace("c2", "h"))
     assert not solution.style.shorthand
     assert any(isinstance(node, Function) for node in walk(solution.forms("D")))

@@ -156,7 +156,7 @@ def test_each_of_several_springs_has_its_own_pull() -> None:
         ("{energy: k*q1^2/2 + k3*q1^4/4}", "P_s = ½ k q₁² + ¼ k₃ q₁⁴"),
         ("{energy: k*(q1 - a*q2 - d)^2/2}", "P_s = ½ k (q₁ - a q₂ - d)²"),
         ("{energy: k*(q2 + a*q1 + d)^2/2}", "P_s = ½ k (q₂ + a q₁ + d)²"),
-        ("{energy: k*(a*sin(q1) - d)^2/2 + u*q1}", "P_s = u q₁ + ½ k (a sin(q₁) - d)²"),
+        ("{energy: k*(a*sin(q1) - d)^2/2 + u*q1}", "P_s = u q₁ + ½ k (a s₁ - d)²"),
         ("{stiffness: 40, of: q1, rest: 2*l - 0.3}", "P_s = 20(q₁ - 2l + 0.3)²"),
         ("{stiffness: k, of: a*q1, rest: a - 0.1}", "P_s = ½ k (a q₁ - a + 0.1)²"),
         (
