@@ -287,8 +287,10 @@ def _model(forms: Forms) -> Iterator[Prose]:
     """The bodies by their positions, or the energies, the Lagrangian or the inertia matrix."""
     given = forms.robot.given
     if given is not None:
-        values = ((letters.D, given.D), (letters.K, given.K), (letters.P, given.P), (letters.L, given.L))
-        yield from ((equation(letter, forms.of(value)), ".") for letter, value in values if value is not None)
+        if given.D is not None:
+            yield (equation(letters.D, forms.of(given.D)), ".")
+        energies = {"K": letters.K, "P": letters.P, "L": letters.L}
+        yield from ((equation(energies[name], typed), ".") for name, typed in given.typed)
         return
     yield from (_position(forms, body) for body in forms.robot.bodies)
     for candidate in forms.robot.questions.candidates:

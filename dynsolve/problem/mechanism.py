@@ -320,7 +320,8 @@ def given_model(values: CellValues, model: Model) -> GivenModel | None:
     if model.L and L is not None and _quadratic_part(L) + L.ring.without(L, 1) != L:
         message = "L is no K - P: beside terms without rates, each term must hold two of them"
         values.faults.error(model.L.span, message, "terms linear in the rates are not read")
-    return GivenModel(D, K, P, L)
+    cells = (("K", model.K), ("P", model.P), ("L", model.L))
+    return GivenModel(D, K, P, L, tuple((name, cell.tree) for name, cell in cells if cell))
 
 
 def _inertia_matrix(values: CellValues, cells: tuple[tuple[Cell, ...], ...]) -> Matrix | None:

@@ -205,13 +205,14 @@ class Body(Struct, frozen=True):
 class GivenModel(Struct, frozen=True):
     """What a file gives in the place of bodies: D and P, K and P, or L; what it does not give is None.
 
-    D is n×n, the others are scalars.
+    D is n×n, the others are scalars, of which `typed` has the formulas as they are in the file.
     """
 
     D: Matrix | None = None
     K: Expr | None = None
     P: Expr | None = None
     L: Expr | None = None
+    typed: tuple[tuple[str, Node], ...] = ()
 
 
 # What acts beside gravity, of whatever kind

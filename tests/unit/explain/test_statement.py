@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from typing import TypeGuard
 
 import pytest
@@ -375,6 +376,13 @@ def test_a_mass_that_is_no_letter_has_one_in_formulas_which_is_told() -> None:
     few, many = masses_given(["2*M", "0", "M"]), masses_given(["2", "0.5", "M", "M", "0"])
     assert [mass for mass in ("m₁ = 2M", "m₂ = 0", "of mass M") if mass not in few] == []
     assert "5 rigid bodies, m₁ = 2 kg, m₂ = 0.5 kg and m₅ = 0." in many
+
+
+def test_energies_are_given_as_they_are_in_the_file() -> None:
+    K = "0.5*m*L^2*(2*a'^2 + b'^2 + 2*a'*b'*cos(a - b))"
+    text = f"model:\n  coordinates: {{a: revolute, b: revolute}}\n  K: {K}\n  P: -m*g*L*cos(a)\nfind: [D]\n"
+    told = unicodedata.normalize("NFC", stated(solved(text))[0])
+    assert told == "Given: 𝒦 = ½ m L² (2ȧ² + ḃ² + 2ȧ ḃ cos(a - b)). 𝒫 = -m g L cos(a)."
 
 
 def test_without_masses_nothing_of_the_dynamics_is_to_be_found() -> None:
