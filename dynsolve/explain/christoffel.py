@@ -75,7 +75,8 @@ def christoffel_step(context: Context) -> Step:
         results[0] = Relation((*before, single.meaning, single.name), (*first.signs, NAMED))
         why = (*why, " The symbol ", before[0], " is named ", single.name, ".")
     end = ending_of_symbols(context, results, way)
-    is_asked = any(_is_asked(context, *ijk) for ijk in zero)
+    names = {f"c{a + 1}{b + 1}{k + 1}" for i, j, k in zero for a, b in ((i, j), (j, i))}
+    is_asked = not names.isdisjoint(context.find)
     return Step(
         id="christoffel",
         title="Christoffel symbols",
@@ -92,11 +93,6 @@ def christoffel_step(context: Context) -> Step:
         normal=NOTED if is_asked else TOLD,
         detail=Detail.NORMAL if nonzero or is_asked else Detail.FULL,
     )
-
-
-def _is_asked(context: Context, i: int, j: int, k: int) -> bool:
-    names = {f"c{i + 1}{j + 1}{k + 1}", f"c{j + 1}{i + 1}{k + 1}"}
-    return not names.isdisjoint(context.find)
 
 
 def equal_symbols(context: Context) -> Reference:

@@ -168,6 +168,8 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
     def form(value: Expr) -> Node:
         return inertias.put(forms.of(value))
 
+    D, g = inertias.put(forms("D")), inertias.put(forms("g"))
+    assert isinstance(D, Matrix) and isinstance(g, Matrix)
     values: Mapping[Index, Expr] = forms.values["christoffel"]
     order = [values[key] for key in as_shown(values)]
     definitions: Sequence[Definition] = ()
@@ -177,7 +179,8 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
         definitions = (Definition(Symbol(SINGLE), form(first)),)
         made = {first: Symbol(SINGLE), -first: Negative(Symbol(SINGLE)), robot.ring.zero: ZERO}
     elif sum(cost(inertias.put(entry)) for row in C.rows for entry in row) >= LONG_CORIOLIS:
-        namer = _SymbolNames(form, order, free)
+        beside = () if robot.is_numeric else (D, g)  # in numbers 0.48 c₂₃ is a multiple by accident
+        namer = _SymbolNames(form, order, free, *beside)
         made, definitions = {value: namer.written(value) for value in order}, namer.definitions
     symbols = {key: made[value] if made else form(value) for key, value in values.items()}
     sums = (*inertias.definitions, *definitions)
@@ -185,8 +188,6 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
         return None
     names_of_symbols = {one.name for one in definitions if one.name != Symbol(SINGLE)}
     named = {value: node for value, node in made.items() if not names_of_symbols.isdisjoint(walk(node))}
-    D, g = inertias.put(forms("D")), inertias.put(forms("g"))
-    assert isinstance(D, Matrix) and isinstance(g, Matrix)
     C = coriolis_matrix(robot.ring.names, lambda i, j, k: symbols[min(i, j), max(i, j), k])
 
     def beside_rates(node: Node) -> Node:
@@ -317,9 +318,12 @@ def _is_one_value(forms: Forms, symbols: Mapping[Index, Expr]) -> bool:
 
 
 class _SymbolNames:
-    """Gives a name to each symbol worth one; what has another one as factor or part is written by that."""
+    """Names symbols; one that has another as factor or part is written by that, one in `beside` has none."""
 
-    def __init__(self, form: Callable[[Expr], Node], values: Sequence[Expr], names: Iterator[Symbol]) -> None:
+    def __init__(
+        self, form: Callable[[Expr], Node], values: Sequence[Expr], names: Iterator[Symbol], *beside: Node
+    ) -> None:
+        self.beside = beside
         self.forms: dict[Expr, Node] = {}
         for value in values:
             if value not in self.forms and -value not in self.forms:
@@ -335,9 +339,17 @@ class _SymbolNames:
         found = self._done.get(value)
         if found is None:
             form = self.forms[value]
-            found = form if cost(form) < SHORTEST else self._multiple(value) or self._named(self._sum(form))
+            worth = self._is_worth_a_name(form)
+            found = (self._multiple(value) or self._named(self._sum(form))) if worth else form
             self._done[value] = found
         return found
+
+    def _is_worth_a_name(self, form: Node) -> bool:
+        """Whether it is long, twice it (beside q̇₁ q̇₂) too, and stands beside products of rates alone."""
+        if min(cost(form), cost(times(2, [(form, 1)]))) < SHORTEST:
+            return False
+        put = Exchange(split_sign(form)[1], Symbol("")).put
+        return all(put(node) == node for node in self.beside)
 
     def _named(self, form: Node) -> Node:
         minus = isinstance(summands(form)[0], Negative)  # of a sum, that every term has one
@@ -352,7 +364,7 @@ class _SymbolNames:
         for other, form in self.forms.items():
             other_sign, part = split_sign(form)
             own = Counter(_factors(part))
-            if cost(part) >= SHORTEST and own < factors:
+            if own < factors and self._is_worth_a_name(part):
                 rest = [(factor, 1) for factor in (factors - own).elements()]
                 return times(sign * other_sign, [(self.written(other), 1), *rest])
         return None

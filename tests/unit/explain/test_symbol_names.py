@@ -72,6 +72,39 @@ def test_the_elbow_has_three_names() -> None:
     )
 
 
+GYROPENDULUM = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {psi: revolute, th: revolute, phi: revolute}
+  bodies:
+    - mass: m
+      at: [l*sin(th)*cos(psi), l*sin(th)*sin(psi), -l*cos(th)]
+      turn: [{by: psi, about: [0, 0, 1]}, {by: -th, about: [0, 1, 0]}, {by: phi, about: [0, 0, 1]}]
+      inertia: {xx: A, yy: A, zz: C}
+"""
+
+FOUR_LINKS = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {a: revolute, r: prismatic, b: revolute, p: prismatic}
+  bodies:
+    - {mass: m1, at: [r*cos(a), r*sin(a), 0]}
+    - {mass: m2, at: [r*cos(a) + p*cos(b), r*sin(a) + p*sin(b), 0]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "meanings"),
+    [
+        (GYROPENDULUM, ["(m l² + A - C) sin(θ) cos(θ)"]),  # twice C sin(θ)/2 is as long as its name
+        (FOUR_LINKS, ["m₂ r p sin(b - a)"]),  # m₂ p cos(b - a) stands in D
+    ],
+)
+def test_what_is_short_or_stands_in_D_has_no_name(problem: str, meanings: list[str]) -> None:
+    style = solved(problem).style
+    assert [to_unicode(one.meaning, style) for one in named(problem).definitions] == meanings
+
+
 def test_a_part_of_a_symbol_is_written_by_its_name() -> None:
     """c_221 of the first joints of a Puma is a sum of which c_231 is a part."""
     style, short = solved("puma560-first3").style, named("puma560-first3")
