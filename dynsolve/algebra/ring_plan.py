@@ -55,8 +55,8 @@ _TRIAL_BOUND = 10_000
 class ConstantPlan(Struct, frozen=True):
     """Which generators the constant angles and the roots of a problem need.
 
-    `generator_degrees` is δ where cos δ is one, of `written` angles below 90°; `primes` are those whose
-    square roots are; `pairs` the degrees of angles that bring a pair of their own.
+    `generator_degrees` is δ where cos δ is one; `primes` are those whose square roots are; `pairs` the
+    degrees of angles that bring a pair of their own.  `written` are all these angles, those below 90°.
     """
 
     generator_degrees: Fraction | None = None
@@ -75,7 +75,7 @@ def plan_constants(degrees: Iterable[Fraction], radicands: Iterable[Fraction]) -
     """The smallest plan for these constant angles and these numbers under a root.
 
     >>> plan_constants([Fraction(90), Fraction(30)], [])
-    ConstantPlan(generator_degrees=None, primes=(3,), pairs=(), written=frozenset())
+    ConstantPlan(generator_degrees=None, primes=(3,), pairs=(), written=frozenset({Fraction(30, 1)}))
     """
     primes = {p for r in radicands for p in square_free_primes(r.numerator * r.denominator)[1]}
     turned = {min(d % _HALF, -d % _HALF) for d in degrees if d % _QUARTER}
@@ -93,7 +93,7 @@ def plan_constants(degrees: Iterable[Fraction], radicands: Iterable[Fraction]) -
         shared = rational_gcd(pairs)
         if pairs[-1] / shared <= LARGEST_MULTIPLE:
             pairs = [shared]
-    return ConstantPlan(None, tuple(sorted(primes)), tuple(pairs))
+    return ConstantPlan(None, tuple(sorted(primes)), tuple(pairs), frozenset(turned))
 
 
 def square_free_primes(n: int) -> tuple[int, tuple[int, ...]]:
@@ -296,7 +296,8 @@ class RingPlan(Struct, frozen=True):
         if constants.generator_degrees is not None:
             degrees += [constants.generator_degrees, *constants.written]
         if any(d % 90 for d in degrees) or more.radicands:
-            constants = plan_constants(degrees, [*map(Fraction, constants.primes), *more.radicands])
+            found = plan_constants(degrees, [*map(Fraction, constants.primes), *more.radicands])
+            constants = replace(found, written=found.written | constants.written)
         old_roots = self.roots[len(self.constants.primes) :]
         return replace(
             self,

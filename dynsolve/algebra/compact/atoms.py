@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import IntEnum
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, product
 
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.compact.proof import node_of
@@ -29,6 +29,7 @@ from dynsolve.algebra.compact.terms import (
     Terms,
     Value,
     add_term,
+    divide,
     multiply,
 )
 from dynsolve.algebra.compact.trig_forms import AngleGroup, TrigMonomial
@@ -94,6 +95,13 @@ class AtomTable:
 
 _OTHER = {"sin": "cos", "cos": "sin"}
 
+_ROOTS = {30: 3, 45: 2, 60: 3}
+"""The root in the sines and cosines of these degrees, which are halves of it; the others are ½."""
+
+
+TrigPart = tuple[Monomial, Terms]
+"""A product of sines and cosines, and what stands beside it."""
+
 
 class _Products(dict[int, int]):
     """For the number of each part of a monomial that of its product with a factor."""
@@ -144,6 +152,13 @@ class RingAtoms:
         self._adds_angles = any(
             g.kind in ("constant", "sin") and self._is_constant(g.angle) for g in ring.generators
         )
+        written = ring.plan.constants.written
+        self._by_roots = [
+            (degrees, self.table.number(Function("sqrt", Number(root)), Rank.ROOT))
+            for degrees, root in _ROOTS.items()
+            if degrees in written
+        ]
+        self.roots_of_sums = {(root, 1) for degrees, root in self._by_roots if degrees == 45}
 
     def _of_generators(self) -> Iterator[tuple[int, int]]:
         """(the part in which each generator stands, its place there; of a symbol its index)"""
@@ -315,6 +330,46 @@ class RingAtoms:
                     sign *= ratio
                 return (mono, other), factor * sign, multiply(rest, ((atom, 1),))
         return None
+
+    def with_roots_added(self, parts: Sequence[TrigPart]) -> Sequence[TrigPart]:
+        """(√3 sin θ + cos θ)/2 as sin(θ + 30°), where 30° was written."""
+        while found := self._sum_by_roots(parts):
+            first, second, whole = found
+            parts = [whole if part == first else part for part in parts if part != second]
+        return parts
+
+    def _sum_by_roots(self, parts: Sequence[TrigPart]) -> tuple[TrigPart, TrigPart, TrigPart] | None:
+        """Two parts, and what they are together."""
+        beside = dict(parts)
+        for (mono, part), (degrees, root) in product(parts, self._by_roots):
+            half = self._divided(part, root)
+            for a in (atom for atom, e in mono if half and e == 1 and atom in self._functions):
+                name, angle = self._functions[a]
+                rest = divide(mono, ((a, 1),))
+                turned = self._of_functions.get((_OTHER[name], angle))
+                other = multiply(rest, ((turned, 1),)) if turned is not None else mono
+                both = beside.get(other, {}) if degrees != 45 else self._divided(beside.get(other, {}), root)
+                ratio = next((r for r in (1, -1) if both == {e: r * f for e, f in half.items()}), 0)
+                if not ratio:
+                    continue
+                if degrees > 45:  # the root is in the sine
+                    name, half = _OTHER[name], both
+                angle += Angle((), Fraction(degrees * (ratio if name == "sin" else -ratio)))
+                sign, atom = self._angle_atom(name, angle, self.table.ranks[a][1][:3])
+                whole = multiply(rest, ((atom, 1),)), {e: 2 * sign * f for e, f in half.items()}
+                if whole[0] not in beside:
+                    return (mono, part), (other, beside[other]), whole
+        return None
+
+    def _divided(self, terms: Terms, root: int) -> Terms:
+        """The terms without a root that all have; nothing where one has it not."""
+        values = self.monomials.values
+        if any((root, 1) not in values[e[SYMBOLS]] for e in terms):
+            return {}
+        without = {number: divide(values[number], ((root, 1),)) for number in {e[SYMBOLS] for e in terms}}
+        return {
+            (*e[:SYMBOLS], self.monomials.number(without[e[SYMBOLS]]), e[RATES]): f for e, f in terms.items()
+        }
 
     def _is_constant(self, angle: Angle) -> bool:
         """Whether no coordinate stands in an angle."""

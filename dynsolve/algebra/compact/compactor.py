@@ -373,7 +373,7 @@ class Compactor:
 
     def _shared(self, monos: Sequence[Monomial]) -> Monomial:
         """The powers that all have; beside a square of a length the lengths that all have in some power."""
-        same = set.intersection(*map(set, monos))
+        same = set.intersection(*map(set, monos)) - self._atoms.roots_of_sums
         ranks = self._atoms.table.ranks
         if any(ranks[atom][0] is Rank.PARAMETER and e != 1 for atom, e in same):
             same |= {power for power in common(monos) if ranks[power[0]][0] is Rank.PARAMETER}
@@ -466,7 +466,7 @@ class Compactor:
         for number, part in collected.items():
             sign, trig = self._atoms.trig(g, number)
             parts.append((trig, part if sign > 0 else {e: -f for e, f in part.items()}))
-        poly = self.collector.added(self._grouped(parts, self._by_angles))
+        poly = self.collector.added(self._grouped(self._atoms.with_roots_added(parts), self._by_angles))
         return self.collector.form(self._atoms.with_angles_added(poly))
 
     def _without_angles(self, terms: Terms) -> Node:

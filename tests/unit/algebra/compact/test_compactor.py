@@ -174,6 +174,12 @@ def test_no_number_stands_before_a_sum_of_fractions(written: str, printed: str) 
         ("sin(beta)*cos(phi) + cos(beta)*sin(phi)", "sin(beta + phi)"),
         ("m1*g*(cos(q1)*cos(beta) - sin(q1)*sin(beta))", "m1*g*cos(q1 + beta)"),
         ("a*cos(q1)*sin(beta) + b*sin(q1)*cos(beta)", "b*sin(q1)*cos(beta) + a*cos(q1)*sin(beta)"),
+        ("m1*a*(sin(q1)*cos(30deg) - cos(q1)*sin(30deg))", "m1*a*sin(q1 - 0.5235987755982988)"),
+        ("m1*a*(cos(q1)*cos(60deg) - sin(q1)*sin(60deg))", "m1*a*cos(q1 + 1.0471975511965976)"),
+        ("m1*a*(cos(q1)*sin(60deg) + sin(q1)*cos(60deg))", "m1*a*sin(q1 + 1.0471975511965976)"),
+        ("(m1*a + m2*b)*(sin(q1) - cos(q1))*cos(45deg)", "(m1*a + m2*b)*sin(q1 - 0.7853981633974483)"),
+        ("m1*a*(sin(q1) - 2*cos(q1))*cos(45deg)", "sqrt(2)*m1*a*(sin(q1) - 2*cos(q1))/2"),
+        ("m1*a*(sqrt(3)*sin(q1) - cos(q1))/2", "m1*a*(sqrt(3)*sin(q1) - cos(q1))/2"),
         ("m1*a*(cos(q1)*cos(25deg) + sin(q1)*sin(25deg))", "m1*a*cos(q1 - 0.4363323129985824)"),
     ],
 )
