@@ -213,7 +213,8 @@ class Forms:
         ring = momentum.ring
         rates = [Symbol(q.name, 1) for q in self.robot.coordinates]
         terms = ((self.of(ring.diff_velocity(momentum, k)), rate) for k, rate in enumerate(rates))
-        return total([times(1, [(slope, 1), (rate, 1)], decimal=True) for slope, rate in terms])
+        products = ((slope, [(slope, 1), (rate, 1)]) for slope, rate in terms)
+        return total([times(1, each, decimal=not isinstance(slope, Quotient)) for slope, each in products])
 
     def _beside_springs(self, force: Expr, k: int, sign: int = 1) -> Node:
         """A force with a term for each spring with a rest position: k (x₂ - x₁ - a) - k (x₃ - x₂ - a).
@@ -253,7 +254,7 @@ class Forms:
             for j, k in pairs(len(names)):
                 entry = self.of(ring.diff_velocity(ring.diff_velocity(energy, j), k))
                 factors = [(entry, 1), *rates_of_pair(names, j, k)]
-                terms.append(times(1 if j == k else 2, factors, decimal=True))
+                terms.append(times(1 if j == k else 2, factors, decimal=not isinstance(entry, Quotient)))
             inner = total(terms)
         if isinstance(inner, Quotient) and isinstance(inner.denominator, Number):  # m l² q̇²/4
             return times(Fraction(1, 2 * inner.denominator.p), [(inner.numerator, 1)])
@@ -330,12 +331,12 @@ def _without_minus(node: Node, spelled: Sequence[Node] = ()) -> Node:
 
 
 def _with_halves(node: Node) -> Node:
-    """An energy in decimals with the ½ of its squares: 0.5 k x² is ½ k x²."""
+    """An energy in decimals with the ½ and ¼ of its powers: 0.5 k x² + 0.25 μ x⁴ is ½ k x² + ¼ μ x⁴."""
     match node:
         case tree.Sum(terms):
             return tree.Sum(tuple(map(_with_halves, terms)))
-        case Product((Number(1, 2), *others)) if any(isinstance(factor, Power) for factor in others):
-            return Product((letters.HALF, *others))
+        case Product((Number(1, 2 | 4 as q), *others)) if any(isinstance(f, Power) for f in others):
+            return Product((Quotient(Number(1), Number(q)), *others))
     return node
 
 

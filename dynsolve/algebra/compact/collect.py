@@ -321,12 +321,11 @@ class Collector:
         return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms], decimal=decimal)
 
     def _is_half_of_letters(self, factor: Rational, atoms: Iterable[tuple[int, int]]) -> bool:
-        """Whether a half, a quarter or an eighth that nobody typed is beside letters: m l/2."""
+        """Whether a half, a quarter or an eighth that nobody typed is beside letters: m l/2, 3m/4."""
         is_typed = not self.typed or abs(factor) in self.typed
-        letters = (Rank.LEADING, Rank.PARAMETER)
+        letters = {1: (Rank.LEADING, Rank.PARAMETER), 3: (Rank.LEADING,)}.get(abs(factor.numerator), ())
         return (
             factor.denominator in QUARTERS
-            and abs(factor.numerator) == 1
             and not is_typed
             and any(self.atoms.ranks[atom][0] in letters for atom, _ in atoms)
         )

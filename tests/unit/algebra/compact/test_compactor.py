@@ -376,6 +376,17 @@ def test_a_decimal_is_drawn_out_of_a_length_where_that_leaves_what_was_typed(spr
     assert isinstance(g, Matrix) and to_unicode(g.rows[0][0]) == force
 
 
+def test_beside_decimals_quarters_of_masses_and_energies_are_fractions_everywhere() -> None:
+    body = "{mass: m, at: [a*cos(q), a*sin(q), 0], turn: q, inertia: {zz: m*a^2/2}}"
+    problem = read_problem(
+        f"gravity: none\nmodel: {{coordinates: {{q: revolute}}, bodies: [{body}]}}\n"
+        "friction: {q: 0.05}\nsprings: [{energy: k*q^2/2 + c*q^4/4}]\n"
+    )
+    forms = Forms(problem.robot, derive(problem.robot))
+    shown = [to_unicode(forms(name)) for name in ("Kw1", "K", "dLdqd1", "D", "Ps")]
+    assert shown == ["m a² q̇²/4", "3m a² q̇²/4", "3m a² q̇/2", "[[3m a²/2]]", "½ k q² + ¼ c q⁴"]
+
+
 @pytest.mark.parametrize("arm", ["R - 0.1", "0.1 - R", "a - b", "b - a", "b - 0.7 a"])
 def test_a_difference_is_written_as_it_was_typed_wherever_it_is_a_factor(arm: str) -> None:
     typed = arm.replace("0.7 ", "0.7*")
