@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.build import negated, total
+from dynsolve.notation.build import negated, summands, total
 from dynsolve.notation.tree import Function, Negative, Node, Power, Sum, Symbol, mapped, names_in, walk
 from dynsolve.robot.model import Robot
 
@@ -51,7 +51,13 @@ def printed_sums(robot: Robot, form: Callable[[Expr], Node]) -> Iterator[Sum]:
 
 def deflection(one: Expr, other: Expr, form: Callable[[Expr], Node]) -> Node:
     """x₂ - x₁ - δ: what acts along x₂ - x₁ and is at rest at δ, each as printed by itself."""
-    return total([form(one), negated(form(other))])
+    return total([along(one, form), negated(form(other))])
+
+
+def along(one: Expr, form: Callable[[Expr], Node]) -> Node:
+    """What something acts along, a coordinate first: y + L θ/2, as y - L θ/2."""
+    coordinates = {*map(Symbol, one.ring.names)}
+    return total(sorted(summands(form(one)), key=lambda term: term not in coordinates))
 
 
 def _has_functions(node: Node) -> bool:

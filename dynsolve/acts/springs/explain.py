@@ -10,9 +10,9 @@ from dynsolve.explain.actions import half_square
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.writing import measured
-from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import Node, equation
 from dynsolve.robot.model import Stored
+from dynsolve.robot.typed_sums import along, deflection
 
 HINT = "Half the stiffness times the square of the deflection of each spring from its rest."
 PITFALL = "The energy of a spring has a ½, and the stretch is squared as a whole, with its rest."
@@ -23,7 +23,8 @@ def given(forms: Forms, spring: Stored) -> Prose:
     if not isinstance(spring, Spring):
         return ("A spring has the potential energy ", forms.of(spring.energy), ".")
     stiffness, rest, _ = (measured(forms.of(one.value), one.unit) for one in spring.parameters(forms.robot))
-    return ("A spring of stiffness ", stiffness, " is at rest at ", equation(forms.of(spring.of), rest), ".")
+    position = equation(along(spring.of, forms.of), rest)
+    return ("A spring of stiffness ", stiffness, " is at rest at ", position, ".")
 
 
 def why(springs: Sequence[Stored]) -> str:
@@ -39,5 +40,4 @@ def term(context: Context, spring: Stored) -> Node | None:
     """½ k (x - rest)²"""
     if not isinstance(spring, Spring):
         return None
-    stretch = total([context.show(spring.of), negated(context.show(spring.rest))])
-    return half_square(context.show(spring.stiffness), stretch)
+    return half_square(context.show(spring.stiffness), deflection(*spring.differences[0], context.show))

@@ -367,6 +367,8 @@ def test_constant_forms_are_the_same_number(degrees: int, powers: dict[int, int]
         ("{stiffness: 40, of: z, rest: 2*l - 0.3}", "40(z - 2l + 0.3)"),
         ("{stiffness: k, of: a*z, rest: a - 0.1}", "a k (a z - a + 0.1)"),
         ("{stiffness: 3, of: z, rest: 20deg}", "3(z - π/9)"),
+        ("{stiffness: k, of: z - a*y, rest: h}", "k (z - a y - h)"),
+        ("{stiffness: k, of: z + a*y, rest: h}", "k (z + a y - h)"),
     ],
 )
 def test_a_decimal_is_drawn_out_of_a_length_where_that_leaves_what_was_typed(spring: str, force: str) -> None:
