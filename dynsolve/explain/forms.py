@@ -213,8 +213,9 @@ class Forms:
         ring = momentum.ring
         rates = [Symbol(q.name, 1) for q in self.robot.coordinates]
         terms = ((self.of(ring.diff_velocity(momentum, k)), rate) for k, rate in enumerate(rates))
-        products = ((slope, [(slope, 1), (rate, 1)]) for slope, rate in terms)
-        return total([times(1, each, decimal=not isinstance(slope, Quotient)) for slope, each in products])
+        return total(
+            [times(1, [(d, 1), (rate, 1)], decimal=not isinstance(d, Quotient)) for d, rate in terms]
+        )
 
     def _beside_springs(self, force: Expr, k: int, sign: int = 1) -> Node:
         """A force with a term for each spring with a rest position: k (x₂ - x₁ - a) - k (x₃ - x₂ - a).

@@ -438,7 +438,7 @@ def _monomial(term: Node) -> tuple[_Monomial, Fraction]:
         number /= Fraction(inner.denominator.p, inner.denominator.q)
         inner = inner.numerator
     exponents: dict[Node, int] = {}
-    for factor in flat_factors(inner) if isinstance(inner, Product) else (inner,):
+    for factor in flat_factors(inner):
         match factor:
             case Number(p, q):
                 number *= Fraction(p, q)

@@ -46,7 +46,6 @@ from dynsolve.notation.tree import (
     Matrix,
     Negative,
     Node,
-    Product,
     Sum,
     Symbol,
     children,
@@ -360,10 +359,10 @@ class _SymbolNames:
     def _multiple(self, value: Expr) -> Node | None:
         """The symbol as a product in which another one, worth a name, is a factor."""
         sign, inner = split_sign(self.forms[value])
-        factors = Counter(_factors(inner))
+        factors = Counter(flat_factors(inner))
         for other, form in self.forms.items():
             other_sign, part = split_sign(form)
-            own = Counter(_factors(part))
+            own = Counter(flat_factors(part))
             if own < factors and self._is_worth_a_name(part):
                 rest = [(factor, 1) for factor in (factors - own).elements()]
                 return times(sign * other_sign, [(self.written(other), 1), *rest])
@@ -379,7 +378,3 @@ class _SymbolNames:
                     rest = [term for term in terms if term not in own]
                     return total([*rest, times(sign, [(self.written(other), 1)])])
         return form
-
-
-def _factors(node: Node) -> tuple[Node, ...]:
-    return flat_factors(node) if isinstance(node, Product) else (node,)

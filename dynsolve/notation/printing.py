@@ -325,11 +325,13 @@ def shorthand(node: Function, style: Style) -> tuple[str, str] | None:
     return node.name[0], separator.join(subscripts)
 
 
-def flat_factors(node: Product) -> tuple[Node, ...]:
-    """The factors of a product, those of products in it put in their place."""
+def flat_factors(node: Node) -> tuple[Node, ...]:
+    """The factors of a product, those of products in it put in their place; of anything else itself."""
+    if not isinstance(node, Product):
+        return (node,)
     if not any(type(factor) is Product for factor in node.factors):
         return node.factors
     factors: list[Node] = []
     for factor in node.factors:
-        factors.extend(flat_factors(factor) if type(factor) is Product else (factor,))
+        factors.extend(flat_factors(factor))
     return tuple(factors)

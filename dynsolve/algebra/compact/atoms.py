@@ -347,16 +347,19 @@ class RingAtoms:
                 name, angle = self._functions[a]
                 rest = divide(mono, ((a, 1),))
                 turned = self._of_functions.get((_OTHER[name], angle))
-                other = multiply(rest, ((turned, 1),)) if turned is not None else mono
+                if turned is None:
+                    continue
+                other = multiply(rest, ((turned, 1),))
                 both = beside.get(other, {}) if degrees != 45 else self._divided(beside.get(other, {}), root)
                 ratio = next((r for r in (1, -1) if both == {e: r * f for e, f in half.items()}), 0)
                 if not ratio:
                     continue
+                size = half
                 if degrees > 45:  # the root is in the sine
-                    name, half = _OTHER[name], both
+                    name, size = _OTHER[name], both
                 angle += Angle((), Fraction(degrees * (ratio if name == "sin" else -ratio)))
                 sign, atom = self._angle_atom(name, angle, self.table.ranks[a][1][:3])
-                whole = multiply(rest, ((atom, 1),)), {e: 2 * sign * f for e, f in half.items()}
+                whole = multiply(rest, ((atom, 1),)), {e: 2 * sign * f for e, f in size.items()}
                 if whole[0] not in beside:
                     return (mono, part), (other, beside[other]), whole
         return None

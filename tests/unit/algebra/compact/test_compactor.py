@@ -178,6 +178,7 @@ def test_no_number_stands_before_a_sum_of_fractions(written: str, printed: str) 
         ("m1*a*(cos(q1)*cos(60deg) - sin(q1)*sin(60deg))", "m1*a*cos(q1 + 1.0471975511965976)"),
         ("m1*a*(cos(q1)*sin(60deg) + sin(q1)*cos(60deg))", "m1*a*sin(q1 + 1.0471975511965976)"),
         ("(m1*a + m2*b)*(sin(q1) - cos(q1))*cos(45deg)", "(m1*a + m2*b)*sin(q1 - 0.7853981633974483)"),
+        ("m1*a*sin(q1)*cos(45deg)", "sqrt(2)*m1*a*sin(q1)/2"),
         ("m1*a*(sin(q1) - 2*cos(q1))*cos(45deg)", "sqrt(2)*m1*a*(sin(q1) - 2*cos(q1))/2"),
         ("m1*a*(sqrt(3)*sin(q1) - cos(q1))/2", "m1*a*(sqrt(3)*sin(q1) - cos(q1))/2"),
         ("m1*a*(cos(q1)*cos(25deg) + sin(q1)*sin(25deg))", "m1*a*cos(q1 - 0.4363323129985824)"),
