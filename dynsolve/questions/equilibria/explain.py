@@ -410,7 +410,7 @@ def _at_rest(robot: Robot, left: Node) -> Prose:
         _AT_REST,
         idle="" if robot.questions.model.inputs_given else ", and no motor drives",
         left=left,
-        loads="Without the forces from outside. " * bool(robot.questions.loads),
+        loads="The forces from outside do not act. " * bool(robot.questions.loads),
     )
 
 

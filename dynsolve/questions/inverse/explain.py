@@ -73,7 +73,7 @@ def steps(context: Context) -> Iterator[Step]:
         is_free = is_redundant(r)
         yield Step(
             id=_id_of_branches(forms),
-            title="No closed form" if is_free else "No closed form was found",
+            title="Infinitely many configurations" if is_free else "No closed form was found",
             why=_spare(context, r)
             if is_free
             else (

@@ -424,7 +424,7 @@ def test_that_forces_from_outside_are_left_out_is_said() -> None:
     for problem, is_told in ((PUSHED, False), (PUSHED + force, True)):
         (step,) = (s for s in dynsolve.solve(problem).explain(["equilibria"]) if s.id == "equilibria")
         words = "".join(part for part in step.why if isinstance(part, str))
-        assert ("Without the forces from outside." in words) is is_told
+        assert ("The forces from outside do not act." in words) is is_told
         assert step.concluding == ("All are 0 where:",)
 
 
