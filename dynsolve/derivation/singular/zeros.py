@@ -28,12 +28,13 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from msgspec import Struct
 
-from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.angles import Angle, names_of
 from dynsolve.algebra.factors import is_positive, trig_quotient
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.derivation.elimination import ParameterSigns, turn_of
+from dynsolve.derivation.existence import DEGREES, quarter_turn
 from dynsolve.errors import AlgebraError
 
 LIMITS = (40, 150, 400)
@@ -197,7 +198,8 @@ class Condition(Struct, frozen=True, dict=True):
         """Another expression where this holds, up to a factor that is never 0.
 
         An angle's sine, cosine or both are put in, also where the angle itself is 0, as springs have it, or
-        is given by others, as gears have it; a length that stands linearly is replaced;
+        is given by others, as gears have it, or as sin(q₁ + q₂/2) = 0 has it if both its turns come to the
+        same; a length that stands linearly is replaced;
         of any other condition it is only seen whether the expression has it as a factor.
         """
         (value,) = self.reduced_together((other,))
@@ -215,6 +217,10 @@ class Condition(Struct, frozen=True, dict=True):
             )
             even = highest + highest % 2
             return tuple(_at_length(other, index, factor, rest, even) for other in others)
+        for turns in self._sums:
+            there = {tuple(other.ring.put(other, images) for other in others) for images in turns}
+            if len(there) == 1:
+                return there.pop()
         return tuple(other.ring.zero if self._divides(other) else self._remainder(other) for other in others)
 
     def multiplier(self, others: Sequence[Expr]) -> Expr:
@@ -313,6 +319,28 @@ class Condition(Struct, frozen=True, dict=True):
                 with suppress(AlgebraError):  # the ring has not every part of an angle
                     return [_angle_put(ring, self.expr, name, rest)]
         return []
+
+    @cached_property
+    def _sums(self) -> list[list[dict[int, fmpq_mpoly]]]:
+        """What the sine and the cosine of an angle are at each turn of a sum that the condition fixes.
+
+        One for each angle that the others give, the last one first.
+        """
+        ring, found = self.expr.ring, quarter_turn(self.expr)
+        if found is None:
+            return []
+        angle, turns = found
+        ends = [Angle((), Fraction(DEGREES[turn])) for turn in turns]
+        given = (
+            (pair, [(end - angle + pair.angle * sign) * sign for end in ends])
+            for pair in reversed(ring.pairs)
+            for sign in (1, -1)
+            if not {*names_of(angle - pair.angle * sign)} & {*names_of(pair.angle)}
+        )
+        return [
+            [{pair.sine: ring.sin(one).poly, pair.cosine: ring.cos(one).poly} for one in ways]
+            for pair, ways in given
+        ]
 
     @cached_property
     def _length(self) -> list[tuple[int, Expr, Expr]]:

@@ -732,6 +732,23 @@ def test_a_sum_of_sines_is_taken_apart() -> None:
     assert folded == "sin(q1 + q2/2) = 0"
 
 
+def test_a_sum_of_angles_that_is_known_is_put_into_what_is_left() -> None:
+    """By hand: with q₂ = -2q₁ it is sin q₁ (m g l + 2k d cos q₁); where the bracket is 0 the energy falls."""
+    text = """
+gravity: [0, -g, 0]
+dh: [{theta: q1* - 90deg, a: l}, {theta: q2*, a: l}]
+masses: [{mass: m, link: 2}]
+springs: [{energy: -k*d*cos(q2)}]
+find: [equilibria]
+"""
+    found = results_of(text)
+    bent, straight = found["equilibria"]
+    assert bent == ["sin(q1 + q2/2) = 0", "m*g*l + 2*k*d*cos(q1) = 0"]
+    assert straight == ["sin(q1) = 0", "sin(q2/2) = 0"]
+    assert found["equilibria_exist"] == [["2*k*d >= m*g*l"], []]
+    assert {one["stability"] for one in found["equilibria_stability"][0]} == {"unstable"}
+
+
 @pytest.mark.parametrize(
     ("problem", "exist"),
     [
