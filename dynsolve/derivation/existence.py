@@ -49,7 +49,7 @@ def conditions(values: Sequence[Expr], signs: ParameterSigns) -> tuple[Bound, ..
     known = [swings for value in values if (swings := _swings(value)) is not None]
     found = [bounds for _, bounds in _choices(known, signs)]
     quadratics = filter(None, map(quadratic_of, values))
-    lengths = _bounds([discriminant(*parts) for _, *parts in quadratics], signs)
+    lengths = not_negative([discriminant(*parts) for _, *parts in quadratics], signs)
     return (*_weakest(found, signs), *lengths) if found and lengths is not None else None
 
 
@@ -418,13 +418,13 @@ def _reach(swings: Swings, held: Sequence[Multiples], signs: ParameterSigns) -> 
     known = [size for size in sizes if size is not None]
     if len(known) == len(sizes):
         most = sum(known, start=ring.zero)
-        return _bounds([most - constant, most + constant], signs)
+        return not_negative([most - constant, most + constant], signs)
     if len(moving) > 1:
         return ()
     if constant.is_zero:
         return ()
     ((cosine, sine),) = (swings[n] for n in moving)
-    return _bounds([cosine**2 + sine**2 - constant**2], signs)
+    return not_negative([cosine**2 + sine**2 - constant**2], signs)
 
 
 def _size(swing: tuple[Expr, Expr], signs: ParameterSigns) -> Expr | None:
@@ -434,7 +434,7 @@ def _size(swing: tuple[Expr, Expr], signs: ParameterSigns) -> Expr | None:
     return sizes[0] if len(parts) == len(sizes) == 1 else None
 
 
-def _bounds(values: Sequence[Expr], signs: ParameterSigns) -> tuple[Bound, ...] | None:
+def not_negative(values: Sequence[Expr], signs: ParameterSigns) -> tuple[Bound, ...] | None:
     """That values are not negative, without what is known; None where one is negative."""
     open_parts = [signs.open_part(value) for value in values]
     if any(signs.is_positive(-part) for part in open_parts):

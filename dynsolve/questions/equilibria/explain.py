@@ -9,6 +9,7 @@ from math import isclose
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_node
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.algebra.matrix import Matrix, determinant, vstack
 from dynsolve.algebra.ring import Expr
@@ -236,8 +237,8 @@ def _of_cases(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterat
     elif not cases[0]:
         yield say("Every configuration is an equilibrium{where}.", where=where)
     else:
-        for value, zero in found.only:
-            yield _only(shown, value, zero)
+        for value, zero, bounds in found.only:
+            yield _only(shown, value, zero, bounds)
         if found.is_convex:
             yield (
                 "In every configuration each entry on the diagonal of ",
@@ -253,13 +254,14 @@ def _of_cases(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterat
             yield say("These are the equilibria{where}.", where=where)
 
 
-def _only(shown: EquilibriaForms, value: Expr, zero: Expr) -> Prose:
-    """k φ - m g l sin φ is 0 at φ = 0 alone, as it grows with φ everywhere."""
+def _only(shown: EquilibriaForms, value: Expr, zero: Expr, bounds: Sequence[Bound]) -> Prose:
+    """k φ - m g l sin φ is 0 at φ = 0 alone, as it grows with φ everywhere: where k ≥ m g l."""
     (name,) = coordinates_in(zero)
     (at,) = shown.relations((Condition(zero),), (Symbol(name),))
     growing = shown.compactor(value.ring).form(value)
-    text = "{growing} grows with {name} everywhere: it is 0 at {at} alone."
-    return say(text, growing=growing, name=Symbol(name), at=at)
+    where = say("Where {bounds}, ", bounds=side_by_side([*map(shown.inequality, bounds)])) if bounds else ""
+    text = "{where}{growing} grows with {name} everywhere: it is 0 at {at} alone."
+    return say(text, where=where, growing=growing, name=Symbol(name), at=at)
 
 
 def _in_numbers(shown: EquilibriaForms, value: Expr) -> Iterator[Prose]:

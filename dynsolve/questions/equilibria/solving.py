@@ -44,6 +44,7 @@ from dynsolve.derivation.existence import (
     conditions,
     coordinates_in,
     is_seen,
+    not_negative,
     quarter_turn,
     radians,
     without_ends,
@@ -60,6 +61,7 @@ from dynsolve.questions.equilibria.stability import (
     Curvature,
     Point,
     by_coordinates,
+    ends,
     is_positive_throughout,
     quarter_turns,
 )
@@ -124,7 +126,7 @@ class Equilibria(Struct, frozen=True):
     never: tuple[tuple[Alternative, Expr], ...] = ()
     is_seen: tuple[bool, ...] = ()
     singular: tuple[tuple[Alternative, tuple[int, ...]], ...] = ()
-    only: tuple[tuple[Expr, Expr], ...] = ()
+    only: tuple[tuple[Expr, Expr, tuple[Bound, ...]], ...] = ()
     is_convex: bool = False
 
 
@@ -207,7 +209,7 @@ class _Search:
         self.special, self.of_rank = Special(self.signs), Special(self.signs)
         self.held = held.moved(self.there) if held else None
         self.wanted = [*map(self.there, wanted)]
-        self.only: dict[Expr, Expr] = {}
+        self.only: list[tuple[Expr, Expr, tuple[Bound, ...]]] = []
         self.left = tuple(combined(robot.ring, wanted, lambda factor: self.special.add(self.there(factor))))
 
     def found(self, forces: Matrix, inertia: Matrix | None, may_be_held: bool) -> Equilibria:
@@ -247,7 +249,7 @@ class _Search:
             never=(*special.never, *never),
             is_seen=tuple(_is_seen(one, self.signs) for one in exist),
             singular=tuple(singular.items()),
-            only=tuple(self.only.items()),
+            only=tuple(dict.fromkeys(self.only)),
             is_convex=rest is not None,
         )
 
@@ -272,12 +274,11 @@ class _Search:
 
     def _narrowed(self, case: Alternative) -> tuple[Alternative, ...]:
         """A case with q = 0 for an equation in q that is 0 there alone, as it grows with q everywhere."""
-        zeros = [_only_zero(one.expr, self.signs) or (one.expr, one.expr) for one in case]
-        found = {value: zero for value, zero in zeros if value != zero}
-        self.only |= found
-        return (
-            common_zeros([zero for _, zero in zeros], self.special, keeps_products=True) if found else (case,)
-        )
+        found = {one: _only_zero(one.expr, self.signs) for one in case}
+        self.only += filter(None, found.values())
+        zeros = [only[1] if only and not only[2] else one.expr for one, only in found.items()]
+        is_moved = zeros != [one.expr for one in case]
+        return common_zeros(zeros, self.special, keeps_products=True) if is_moved else (case,)
 
     def _alternatives(self) -> tuple[tuple[Alternative, ...], Settled | None]:
         """The cases, and what is known of their multipliers: None where the rows of A_c may be dependent."""
@@ -363,18 +364,22 @@ class _Search:
             yield from filter(None, (_of_rank(factor, self.held, settled, self.signs) for factor in moved))
 
 
-def _only_zero(value: Expr, signs: ParameterSigns) -> tuple[Expr, Expr] | None:
-    """±k φ ∓ m g l sin φ that grows with φ everywhere, and φ, which is 0 where it is; None of any other."""
+def _only_zero(value: Expr, signs: ParameterSigns) -> tuple[Expr, Expr, tuple[Bound, ...]] | None:
+    """±k φ ∓ m g l sin φ, φ, which is 0 where it is, and where it grows with φ everywhere: k ≥ m g l.
+
+    None of any other.
+    """
     names = coordinates_in(value)
     if len(names) != 1 or Condition(value).fixes_coordinate:
         return None
     ring, (name,) = value.ring, names
     slope = ring.diff(value, ring.names.index(name))
-    grows = [sign for sign in (1, -1) if is_positive_throughout(slope * sign, signs)]
-    for sign, pose in product(grows, zeros_at_quarters([value])):
-        at = radians(ring, pose.get(name, 0))
-        if at is not None:
-            return value * sign, ring.symbol(name) - at
+    for sign, pose in product((1, -1), zeros_at_quarters([value])):
+        at, least = radians(ring, pose.get(name, 0)), ends(slope * sign)
+        is_known = least and not any(map(ring.depends_on_coordinates, least))
+        growing = not_negative(least, signs) if is_known else None
+        if at is not None and growing is not None:
+            return value * sign, ring.symbol(name) - at, growing
     return None
 
 

@@ -366,9 +366,15 @@ def _principal(rest: Sequence[int]) -> Iterator[tuple[int, ...]]:
 
 
 def is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
-    """Whether k - m g l cos q > 0 for all q: what is linear in x, or in x², of each sine and cosine x.
+    """Whether k - m g l cos q > 0 for all q."""
+    found = ends(value)
+    return bool(found) and all(map(signs.is_positive, found))
 
-    It is least where x is 1 or -1, or where x² is 1 or 0.
+
+def ends(value: Expr) -> list[Expr]:
+    """k ± m g l of k - m g l cos q, of which one is the least: of what is linear in sines and cosines x.
+
+    It is least where x is 1 or -1; or of what is so in x², where that is 1 or 0.  None of anything else.
     """
     ring, monomials = value.ring, value.poly.monoms()
     turning = [i for pair in ring.pairs for i in (pair.sine, pair.cosine) if any(m[i] for m in monomials)]
@@ -378,12 +384,9 @@ def is_positive_throughout(value: Expr, signs: ParameterSigns) -> bool:
         or len(turning) > MOST_TURNING
         or not all(each <= {0, 1} or each <= {0, 2} for each in powers)
     ):
-        return False
-    ends = [(1, -1) if 1 in each else (1, 0) for each in powers]
-    return all(
-        signs.is_positive(with_numbers(value, dict(zip(turning, numbers, strict=True))))
-        for numbers in product(*ends)
-    )
+        return []
+    at = [(1, -1) if 1 in each else (1, 0) for each in powers]
+    return [with_numbers(value, dict(zip(turning, numbers, strict=True))) for numbers in product(*at)]
 
 
 def _is_of_squares(value: Expr) -> bool:
