@@ -350,8 +350,7 @@ def quarter_turn(value: Expr) -> tuple[Angle, list[tuple[int, int]]] | None:
     if swings is None or not (turns := _quarters(swings)):
         return None
     (multiples,) = (n for n in swings if any(n))
-    terms = (pair.angle * times for pair, times in zip(_turning(value.ring), multiples, strict=True))
-    return sum(terms, start=Angle.zero()), turns
+    return _angle_of(multiples, value.ring), turns
 
 
 def _turning(ring: Ring) -> list[Pair]:
@@ -364,6 +363,28 @@ def _swings(value: Expr) -> Swings | None:
     swings = fourier_parts(value, [(pair.sine, pair.cosine) for pair in _turning(ring)])
     is_free = not any(ring.depends_on_coordinates(part) for both in swings.values() for part in both)
     return swings if is_free else None
+
+
+def only_ends(value: Expr, signs: ParameterSigns) -> tuple[Expr, ...]:
+    """1 - cos φ and 1 - cos ψ, which are 0 where 2 - cos φ - cos ψ is; none of what is 0 elsewhere, too."""
+    ring, swings = value.ring, _swings(value) or {}
+    sizes = {n: _size(both, signs) for n, both in swings.items() if any(n)}
+    known = {n: size for n, size in sizes.items() if size is not None}
+    constant, most = _constant(swings, ring), sum(known.values(), start=ring.zero)
+    sign = next((sign for sign in (1, -1) if (most - constant * sign).is_zero), 0)
+    if not known or len(known) < len(sizes):
+        return ()
+    return tuple(
+        swings[n][0] * ring.cos(angle) + swings[n][1] * ring.sin(angle) + size * sign
+        for n, size in known.items()
+        if sign
+        for angle in [_angle_of(n, ring)]
+    )
+
+
+def _angle_of(multiples: Multiples, ring: Ring) -> Angle:
+    terms = (pair.angle * times for pair, times in zip(_turning(ring), multiples, strict=True))
+    return sum(terms, start=Angle.zero())
 
 
 def _quarters(swings: Swings) -> list[tuple[int, int]]:

@@ -216,7 +216,7 @@ class Condition(Struct, frozen=True, dict=True):
                 (int(other.poly.degrees()[index]) for other in others if not other.is_zero), default=0
             )
             even = highest + highest % 2
-            return tuple(_at_length(other, index, factor, rest, even) for other in others)
+            return tuple(with_quotient(other, index, factor, rest, even) for other in others)
         for turns in self._sums:
             there = {tuple(other.ring.put(other, images) for other in others) for images in turns}
             if len(there) == 1:
@@ -402,7 +402,7 @@ def _angle_put(ring: Ring, relation: Expr, name: str, rest: Angle) -> dict[int, 
     return found
 
 
-def _at_length(expr: Expr, index: int, factor: Expr, rest: Expr, highest: int) -> Expr:
+def with_quotient(expr: Expr, index: int, factor: Expr, rest: Expr, highest: int) -> Expr:
     """Σ aₖ dᵏ with d = -n/m, times m to the highest power t: Σ aₖ (-n)ᵏ mᵗ⁻ᵏ."""
     ring = expr.ring
     by_power: dict[int, dict[tuple[int, ...], Any]] = {}

@@ -498,8 +498,8 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
         forces, working = forces_of_motion(context), (energy,)
         second = SECOND
     told = [
-        (point, _place(shown, point, case))
-        for case, points in zip(shown.equilibria, found.points, strict=True)
+        (point, _place(shown, point, case, shown.relations(one, case)))
+        for one, case, points in zip(found.alternatives, shown.equilibria, found.points, strict=True)
         for point in points
     ]
     more: Prose = ()
@@ -581,8 +581,8 @@ def _along(shown: EquilibriaForms, point: Point, place: Prose) -> Iterator[Line]
         yield Line(say("{place}:", place=place), told, is_kept=True)
 
 
-def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Prose:
-    """At q₁ = -90°, q₂ = 0"""
+def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...], told: Sequence[Node]) -> Prose:
+    """At q₁ = -90°, q₂ = 0; in a case what is `told` of it is not told once more."""
     names = [q.name for q in shown.robot.coordinates]
     at = []
     for angle, degrees in turned(point.values):
@@ -593,6 +593,7 @@ def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...]) -> Pros
     if not case:
         return ("In every configuration",)
     cases = shown.equilibria
+    at = [one for one in at if one not in told]
     among = "In equilibrium" if len(cases) == 1 else f"In case {cases.index(case) + 1}"
     return (among, " at ", side_by_side(at)) if at else (among,)
 

@@ -7,7 +7,7 @@ rank; at each the sets of less rank are looked at apart.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set
 from contextlib import suppress
 from fractions import Fraction
 from itertools import chain, product
@@ -32,7 +32,7 @@ from dynsolve.algebra.sampling import Transfer
 from dynsolve.algebra.spaces import nullspace
 from dynsolve.derivation.allowed import Allowed, where_allowed
 from dynsolve.derivation.elimination import ParameterSigns
-from dynsolve.derivation.existence import DEGREES, quarter_turn
+from dynsolve.derivation.existence import DEGREES, only_ends, quarter_turn
 from dynsolve.derivation.search_ring import search_ring
 from dynsolve.derivation.singular.sets import (
     Alternative,
@@ -223,11 +223,49 @@ class Multipliers(Struct, frozen=True):
             return holds and all(never_together((one, factor), factor.ring.one) for one in special.factors)
         return False
 
+    def at_ends(self, factor: Expr, signs: ParameterSigns) -> tuple[Expr, ...]:
+        """What is 0 in equilibrium where a factor is, and with it h at ends alone, at which A_c is 0, too.
+
+        So it is of a tip on a wall that it just reaches; none of any other.
+        """
+        there = self.where_zero(factor)
+        ends = tuple(chain(*(only_ends(h, signs) for h in there.h)))
+        return (*ends, *there.h, *there.g.entries) if ends and lies_in(ends, there.A.entries) else ()
+
+    def leaves_least_energy(self, signs: ParameterSigns) -> bool:
+        """Whether the energy is least somewhere, if h is 0 anywhere: it is so within bounds alone."""
+        ring = self.A.ring
+        turning = [ring.symbol_indices[name, 0] for name, kind in ring.coordinates if kind == "revolute"]
+        used = {index for value in (*self.h, *self.g.entries) for index in value.used}
+        left = {ring.symbol_indices[name, 0] for name, kind in ring.coordinates if kind == "prismatic"}
+        while left:
+            bounded = {index for h in self.h for index in _bounded(h, left & {*h.used}, signs)}
+            if not bounded:
+                return False
+            left -= bounded
+        return self.rank == len(self.h) and used.isdisjoint(turning)
+
     def _holds_where_dependent(self, rank: int, special: Special) -> bool:
         """Whether forces are held wherever the rows of A_c, of this rank elsewhere, are dependent."""
         dependent, exactly = (*minors(self.A, rank), *self.h), Special(special.signs)
         holds = rank == 1 and lies_in(dependent, self.zeros(rank - 1), exactly)
         return (holds and exactly.is_empty) or not common_zeros(dependent, special)
+
+
+def _bounded(h: Expr, lengths: Set[int], signs: ParameterSigns) -> Set[int]:
+    """The lengths, of some generators, if h = 0 leaves them no room: x² + y² - l², or x - l cos φ."""
+    ring, parts = h.ring, dict[tuple[int, ...], Expr]()
+    places = sorted(lengths)
+    for exponents, number in h.poly.to_dict().items():
+        powers = tuple(int(exponents[k]) for k in places)
+        plain = tuple(0 if k in lengths else e for k, e in enumerate(exponents))
+        parts[powers] = parts.get(powers, ring.zero) + Expr(ring, ring.ctx.from_dict({plain: number}))
+    most = max(map(sum, parts))
+    highest = {powers: part for powers, part in parts.items() if sum(powers) == most}
+    is_alone = len(places) == most == 1 or (most == 2 and all(max(powers) == 2 for powers in highest))
+    has_sign = any(all(signs.is_positive(part * sign) for part in highest.values()) for sign in (1, -1))
+    is_free = not any(map(ring.depends_on_coordinates, highest.values()))
+    return lengths if is_alone and len(highest) == len(places) and has_sign and is_free else frozenset()
 
 
 def remainder(value: Expr, factor: Expr) -> Expr:

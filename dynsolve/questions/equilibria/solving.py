@@ -22,7 +22,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from itertools import product
+from itertools import permutations, product
 from math import atan2, degrees, isclose, prod
 from typing import Any
 
@@ -52,8 +52,15 @@ from dynsolve.derivation.existence import (
 )
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.search_ring import search_ring
-from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, lies_in
-from dynsolve.derivation.singular.zeros import Condition, never_together
+from dynsolve.derivation.singular.sets import (
+    Alternative,
+    Special,
+    TooLong,
+    common_zeros,
+    lies_in,
+    zeros_of_any,
+)
+from dynsolve.derivation.singular.zeros import Condition, never_together, with_quotient
 from dynsolve.errors import AlgebraError
 from dynsolve.questions.equilibria.multipliers import Multipliers, Settled, remainder
 from dynsolve.questions.equilibria.stability import (
@@ -218,6 +225,9 @@ class _Search:
         alternatives, settled = (rest, None) if rest else self._alternatives()
         if self.held is None:
             alternatives = tuple(dict.fromkeys(one for case in alternatives for one in self._narrowed(case)))
+        for factor in self.of_rank.factors:
+            if self.held and self.held.at_ends(factor, self.signs):
+                self.special.add(factor)
         excluded = dict(settled.pairs) if settled else {}
         possible = {
             one: bounds
@@ -236,6 +246,7 @@ class _Search:
         points = self._points(exist, forces, may_be_held)
         short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
         never = (_never(one, self.signs) for one in alternatives if one not in possible)
+        is_always = len(exist) == 1 and settled is not None and self._is_always(settled, *exist.values())
         return Equilibria(
             rows=self.left,
             alternatives=tuple(exist),
@@ -247,7 +258,7 @@ class _Search:
             is_whole=settled is None or settled.is_whole,
             may_be_dependent=self.held is not None and settled is None,
             never=(*special.never, *never),
-            is_seen=tuple(_is_seen(one, self.signs) for one in exist),
+            is_seen=tuple(is_always or _is_seen(one, self.signs) for one in exist),
             singular=tuple(singular.items()),
             only=tuple(dict.fromkeys(self.only)),
             is_convex=rest is not None,
@@ -296,11 +307,31 @@ class _Search:
             self.of_rank = Special(self.signs)
         return settled.alternatives if settled else alternatives, settled
 
+    def _is_always(self, settled: Settled, bounds: Sequence[Bound]) -> bool:
+        """Whether these bounds are enough for the only case: the energy is least somewhere where h is 0."""
+        held = self.held
+        if held is None or any(settled.excluded) or self.of_rank.factors.keys() - self.special.factors.keys():
+            return False
+        reached = conditions(held.h, self.signs)
+        return (
+            settled.is_whole
+            and not self.of_rank.is_open
+            and held.is_of_energy(self.robot.n)
+            and held.leaves_least_energy(self.signs)
+            and is_seen(held.h, self.signs)
+            and reached is not None
+            and {*reached}.issubset(bounds)
+        )
+
     def _is_ordinary(self, factor: Expr, cases: Sequence[Alternative]) -> bool:
         """Whether the equations of the only case, too, say what the forces do where a factor is 0."""
-        if len(cases) != 1 or self.special.never or _is_unknown(factor, self.held, self.signs):
+        if self.special.never or _is_unknown(factor, self.held, self.signs):
             return False
         divided = Special(self.signs)
+        if len(cases) > 1 and self.held is None:
+            return _are_all_where_zero(cases, factor, self.wanted, self.signs)
+        if len(cases) != 1:
+            return False
 
         def rows(zeros: Iterable[Expr]) -> list[Expr]:
             return [*combined(factor.ring, _rests(factor, zeros), divided.add, factor)]
@@ -533,6 +564,32 @@ def assumed_signs(robot: Robot, there: Transfer) -> ParameterSigns:
     return ParameterSigns(tuple(Bound(there(bound.value), bound.is_strict) for bound in assumed))
 
 
+def _are_all_where_zero(
+    cases: Iterable[Alternative], factor: Expr, zeros: Iterable[Expr], signs: ParameterSigns
+) -> bool:
+    """Whether cases are where all is 0 also where a factor is, which gives a parameter: a = b²/c."""
+    ring, special = factor.ring, Special(signs)
+    indices = [g.index for g in ring.generators if g.kind == "symbol" and g.name in ring.parameters]
+    slopes = ((k, Expr(ring, factor.poly.derivative(k))) for k in indices)
+    given = ((k, m) for k, m in slopes if k not in m.used and (signs.is_positive(m) or signs.is_positive(-m)))
+    for k, m in given:
+        rest = factor - m * ring.generator(k)
+
+        def put(value: Expr, k: int = k, m: Expr = m, rest: Expr = rest) -> Expr:
+            return with_quotient(value, k, m, rest, int(value.poly.degrees()[k]))
+
+        with suppress(TooLong):
+            own = zeros_of_any([[put(one.expr) for one in case] for case in cases], special)
+            theirs = common_zeros([*map(put, zeros)], special)
+            sets = [[[one.expr for one in case] for case in found] for found in (own, theirs)]
+            return special.is_empty and all(
+                any(lies_in(one, other) for other in others)
+                for mine, others in permutations(sets)
+                for one in mine
+            )
+    return False
+
+
 def _is_unknown(factor: Expr, held: Multipliers | None, signs: ParameterSigns) -> bool:
     """Whether where a factor is 0 the rows of A_c may be dependent."""
     return held is not None and not held.holds_where_zero(factor, signs)
@@ -542,9 +599,10 @@ def _special_case(
     factor: Expr, zeros: Sequence[Expr], held: Multipliers | None, signs: ParameterSigns
 ) -> SpecialCase:
     """What is known where a factor is 0; nothing where with this the rows of A_c may be dependent."""
-    if _is_unknown(factor, held, signs):
+    ends = held.at_ends(factor, signs) if held else ()
+    if not ends and _is_unknown(factor, held, signs):
         return SpecialCase(factor, None)
-    left = [_where_zero(row, factor) for row in _modulo(factor, zeros, signs)]
+    left = [_where_zero(row, factor) for row in _modulo(factor, ends or zeros, signs)]
     ring = factor.ring
     forces = tuple(row for row in left if ring.depends_on_coordinates(row))
     needs = dict.fromkeys(prod(signs.open_factors(row), start=ring.one) for row in left if row not in forces)

@@ -137,7 +137,7 @@ find: [equilibria]
     for angle in re.findall(r"-?[0-9.]+(?=°)", found):
         q = float(angle) * pi / 180
         assert abs(5 * (q - 40 * pi / 180) - 10 * sin(q)) < 0.02
-    assert "alone" not in read(soft.replace("stiffness: 5", "stiffness: k"))
+    assert "° alone" not in read(soft.replace("stiffness: 5", "stiffness: k"))
     assert "alone" not in read(soft.replace("stiffness: 5", "stiffness: 1/10"))  # at too many
 
 
@@ -229,6 +229,17 @@ def test_the_only_zero_of_what_grows_everywhere_is_the_equilibrium(
     told = read(problem)
     assert "k q - m g L sin(q) grows with q everywhere: it is 0 at q = 0 alone." in told
     assert ("Where k ≥ m g L, k q - m g L sin(q) grows" in told) == ("q = 0" not in equilibria)
+
+
+def test_parameters_with_which_the_cases_say_the_same_are_not_special() -> None:
+    """Where a c = b² both cases are x = y = 0, as the equations are then."""
+    energy = "a*x^2/2 - b*x*y + c*y^2/2 + d*x^4/4"
+    text = f"""
+gravity: none
+model: {{coordinates: {{x: prismatic, y: prismatic}}, K: m*(x'^2 + y'^2)/2, P: {energy}}}
+find: [equilibria]
+"""
+    assert "Case 2 has solutions where b² ≥ a c." in read(text) and "a c = b²" not in read(text)
 
 
 def test_where_a_sum_of_angles_is_known_stability_is_told_at_its_quarter_turns() -> None:
@@ -726,10 +737,14 @@ def test_equal_links_on_a_level_line_are_solved_for() -> None:
 
 
 def test_a_sum_of_sines_is_taken_apart() -> None:
-    """By hand: sin q₁ + sin(q₁ + q₂) is 2 sin(q₁ + q₂/2) cos(q₂/2), and where the latter is 0 A_c is, too."""
+    """By hand: sin q₁ + sin(q₁ + q₂) is 2 sin(q₁ + q₂/2) cos(q₂/2), and where the latter is 0 A_c is, too.
+
+    With q₂ = -2q₁ the rest is cos q₁ times 4k sin q₁ - g (m₁ l_c1 + m₂ (l - l_c2)).
+    """
     level = LINE.replace("l2}]", "l}]") + "springs: [{energy: k*(cos(q1) + cos(q1 + q2))^2/2}]\n"
-    ((folded, _),) = dynsolve.solve(level).to_json()["results"]["equilibria"]
-    assert folded == "sin(q1 + q2/2) = 0"
+    bent, folded = dynsolve.solve(level).to_json()["results"]["equilibria"]
+    assert bent == ["sin(q1 + q2/2) = 0", "4*k*sin(q1) - g*(m1*lc1 + m2*(l - lc2)) = 0"]
+    assert folded == ["cos(q1) = 0", "cos(q2/2) = 0"]
 
 
 def test_a_sum_of_angles_that_is_known_is_put_into_what_is_left() -> None:
@@ -1089,6 +1104,33 @@ find: [equilibria]
 def read(problem: str) -> str:
     """The text without its line breaks."""
     return " ".join(report(dynsolve.solve(problem), Format.TEXT).decode().split())
+
+
+def test_on_a_set_without_end_or_edge_the_energy_is_least_somewhere() -> None:
+    """A bead on a circle rests wherever a spring pulls it; on a line it may be pulled on and on."""
+    bead = """
+gravity: [0, -g, 0]
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}
+springs: [{stiffness: k, of: x - y}]
+constraints: [x^2 + y^2 - l^2]
+find: [equilibria]
+"""
+    assert "not told here" not in str(told_of(bead).outcome)
+    assert "not told here" in str(told_of(bead.replace("x^2 + y^2", "x^2 - y^2")).outcome)
+
+
+def test_a_tip_that_just_reaches_its_wall_is_not_held() -> None:
+    """By hand: b = 2l leaves q₁ = q₂ = 0 alone, where A_c is 0 and the weight is not."""
+    arm = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}, {theta: q2*, a: l}]
+masses: [{mass: m, link: 1}, {mass: m, link: 2}]
+constraints: [tip.x - b]
+find: [equilibria]
+"""
+    told = read(arm)
+    assert "This has solutions where 2l > b." in told and "Where b = 2l, there is no equilibrium." in told
+    assert "may be dependent" not in told
 
 
 def test_that_coulomb_friction_holds_more_is_said() -> None:
@@ -1601,7 +1643,8 @@ find: [equilibria]
 
 def test_what_constraints_hold_is_told_at_sums_of_angles() -> None:
     """By hand: with q₁ + q₂ upright and q₃ = 0, P = m g l₁ s₁ + M g (l₁ s₁ + l₂ s₁₂) is least at +90°."""
-    told = dynsolve.solve(ON_A_LINE).to_json()["results"]["equilibria_stability"][2]
+    cases = dynsolve.solve(ON_A_LINE).to_json()["results"]["equilibria_stability"]
+    (told,) = (points for points in cases if "q1 + q2" in points[0])
     known = {(point["q1 + q2"], point["q3"]): point.get("stable_if") for point in told}
     dependent = ["l1 != l2 + l3"]  # where the links reach back to the base, the row of A_c is 0
     assert known == {
