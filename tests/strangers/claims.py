@@ -1029,14 +1029,14 @@ def _rank_everywhere(m: Mechanism, s: Sentence) -> bool:
     """At random states, and where the coordinates are right angles and 0."""
     at = [m.point(seed=seed) for seed in range(10)]
     at += [m.point(pose) for pose in m.right_angles()]
-    return all(rank(m.result(m.jacobian, p)) == int(s.words[0]) for p in at)
+    return all(rank(m.result(m.singular, p)) == int(s.words[0]) for p in at)
 
 
 @says("Where {}, the rank is [in general ]# instead of #.")
 def _rank_where(m: Mechanism, s: Sentence) -> bool:
     point = m.where(s.formulas[0])
-    return rank(m.result(m.jacobian, point)) == int(s.words[0]) and all(
-        rank(m.result(m.jacobian, p)) == int(s.words[1]) for p in m.points()
+    return rank(m.result(m.singular, point)) == int(s.words[0]) and all(
+        rank(m.result(m.singular, p)) == int(s.words[1]) for p in m.points()
     )
 
 

@@ -303,6 +303,11 @@ class Mechanism:
     def jacobian(self) -> str:
         return "Jr" if "Jr" in self.point().results else "J"
 
+    @property
+    def singular(self) -> str:
+        """The Jacobian whose rank is looked at: of a wrist that of all six rows, though the task is the tip."""
+        return str(self.solution.values.rules["singular"].inputs[0])
+
     def momentum(self, of: Node, kind: str, what: str, axis: Node | None, point: Point) -> float:
         """Of the bodies that a coordinate moves, or of all: along an axis, or about it."""
         robot, total = self.solution.robot, 0.0

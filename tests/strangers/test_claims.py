@@ -207,3 +207,21 @@ def test_a_reflected_inertia_is_no_moment_of_inertia_of_what_moves(
         words = f"{{d}} is the moment of inertia of {text}{ending}."
         told = Text(say(words, d=entries[joint], joint=str(joint)))
         assert wrong(problem, "", told) == ([] if is_true else ["is not true"])
+
+
+def test_the_rank_is_that_of_the_jacobian_whose_singular_configurations_are_told() -> None:
+    """Of a spherical wrist on an arm with a slide all six rows, and not those of the tip alone."""
+    wrist = """
+gravity: none
+dh:
+  - {theta: q1*, d: h, alpha: -90deg}
+  - {theta: q2*, alpha: 90deg}
+  - {d: q3*}
+  - {theta: q4*, alpha: -90deg}
+  - {theta: q5*, alpha: 90deg}
+  - {theta: q6*}
+find: [det, singular]
+"""
+    solution = solved(wrist)
+    document = solution_document(solution, Detail.FULL, None, Abbreviate.NEVER)
+    assert not list(untrue_sentences(Mechanism(solution, document, 1), document.blocks))

@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable
 from fractions import Fraction
+from math import lcm
 
 from dynsolve.algebra.compact.atoms import AtomPlace, AtomTable, Rank
 from dynsolve.algebra.compact.terms import (
@@ -316,6 +317,12 @@ class Collector:
                 if exponent == 2 and (half := self._half_a_square(factor, atom)):
                     factor, atoms[place] = Fraction(1, 2), (half, 2)
                     break
+        for place, (atom, exponent) in enumerate(atoms):
+            if exponent == 2 and (below := self._denominator(atom)) and not factor % Fraction(below**2, 2):
+                terms = self._of_fractions(atom).items()
+                whole = total([self.product(exact(f * below, 1), mono, ()) for mono, f in terms])
+                factor, atoms[place] = exact(factor, below**2), (self.atoms.number(whole), 2)
+                break
         atoms.sort(key=lambda item: self.atoms.ranks[item[0]])
         decimal = self.decimal and not self._is_half_of_letters(factor, atoms)
         return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms], decimal=decimal)
@@ -369,6 +376,11 @@ class Collector:
         if all(abs(f * root) != 1 for f, _ in terms):
             return None
         return self.atoms.number(total([self.product(f * root, mono, ()) for f, mono in terms]))
+
+    def _denominator(self, atom: int) -> int:
+        """2 of a sum x + y/2, of which 2 (x + y/2)² is ½ (2x + y)²; 0 of any without fractions."""
+        terms = self._of_fractions(atom)
+        return lcm(*(f.denominator for f in terms.values())) if terms else 0
 
     def _is_mass(self, mono: Monomial) -> bool:
         return len(mono) == 1 and mono[0][1] == 1 and self.atoms.ranks[mono[0][0]][0] is Rank.LEADING
