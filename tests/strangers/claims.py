@@ -1032,12 +1032,28 @@ def _rank_everywhere(m: Mechanism, s: Sentence) -> bool:
     return all(rank(m.result(m.singular, p)) == int(s.words[0]) for p in at)
 
 
-@says("Where {}, the rank is [in general ]# instead of #.")
+def _ranks_where(m: Mechanism, condition: Node) -> set[int]:
+    return {rank(m.result(m.singular, m.where(condition, seed))) for seed in range(5)}
+
+
+@says("Where {}, the rank is # instead of #.")
 def _rank_where(m: Mechanism, s: Sentence) -> bool:
-    point = m.where(s.formulas[0])
-    return rank(m.result(m.singular, point)) == int(s.words[0]) and all(
-        rank(m.result(m.singular, p)) == int(s.words[1]) for p in m.points()
-    )
+    less, most = map(int, s.words)
+    return _ranks_where(m, s.formulas[0]) == {less} and {
+        rank(m.result(m.singular, p)) for p in m.points()
+    } == {most}
+
+
+@says("Where {}, the rank is in general # instead of #.")
+def _rank_of_most(m: Mechanism, s: Sentence) -> bool:
+    """A part of the set may have another."""
+    less, most = map(int, s.words)
+    return max(_ranks_where(m, s.formulas[0])) == less < most
+
+
+@says("Where {}, the rank is #.")
+def _rank_of_a_part(m: Mechanism, s: Sentence) -> bool:
+    return _ranks_where(m, s.formulas[0]) == {int(s.words[0])}
 
 
 @says("Where {&}, more is free than the columns of {} span, and the equations are too few.")

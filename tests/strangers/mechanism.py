@@ -327,7 +327,7 @@ class Mechanism:
             total += float(direction @ impulse)
         return total
 
-    def where(self, condition: Node) -> Point:
+    def where(self, condition: Node, seed: int = 0) -> Point:
         """A state that meets equations in the coordinates, or in parameters alone."""
         told = [part for part in walk(condition) if isinstance(part, tree.Relation)]
         symbols = {part.name for part in walk(condition) if isinstance(part, tree.Symbol)}
@@ -336,7 +336,7 @@ class Mechanism:
         def off(p: Point) -> Any:
             return np.array([float(self.value(r.parts[0], p) - self.value(r.parts[-1], p)) for r in told])
 
-        tries = [(free, seed) for free in (free, tuple(sorted(symbols))) for seed in range(4)]
+        tries = [(free, seed + k) for free in (free, tuple(sorted(symbols))) for k in range(4)]
         found = next(filter(None, (self.solved(off, free, seed) for free, seed in tries)), None)
         if found is None:
             raise Unknown

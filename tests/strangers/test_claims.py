@@ -225,3 +225,18 @@ find: [det, singular]
     solution = solved(wrist)
     document = solution_document(solution, Detail.FULL, None, Abbreviate.NEVER)
     assert not list(untrue_sentences(Mechanism(solution, document, 1), document.blocks))
+
+
+def test_the_lesser_rank_of_a_part_of_a_singular_set_is_told() -> None:
+    """Two links alike that are folded: the joints between leave the tip where it is."""
+    arm = """
+gravity: none
+dh: [{theta: q1*, d: h, alpha: 90deg}, {theta: q2*, a: l}, {theta: q3*, a: l}, {theta: q4*, alpha: 90deg}]
+task: [tip.x, tip.y, tip.z, q2 + q3 + q4]
+find: [singular]
+"""
+    solution = solved(arm)
+    document = solution_document(solution, Detail.FULL, None, Abbreviate.NEVER)
+    told = "the rank is in general 3 instead of 4. Where $q_{3} = 180^{\\circ}$, the rank is 2."
+    assert told in " ".join(solution.to_markdown().split())
+    assert list(untrue_sentences(Mechanism(solution, document, 1), document.blocks)) == []

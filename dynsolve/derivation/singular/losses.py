@@ -14,6 +14,7 @@ from itertools import chain, combinations
 
 from msgspec import Struct
 
+from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.factors import parameters, trig_factors, trig_quotient
 from dynsolve.algebra.linear_systems import content
 from dynsolve.algebra.matrix import Matrix, determinant, minors, work
@@ -43,7 +44,7 @@ class Loss(Struct, frozen=True):
 
     `jacobian` is the matrix there, up to a factor that is never 0.  With `rank_holds` the rank is that
     wherever the conditions hold, and with `are_independent` those `here` are independent there; else both
-    are so almost everywhere.
+    are so almost everywhere, but for the `lesser` ranks of whole parts, where a coordinate has some degrees.
     """
 
     rank: int
@@ -53,6 +54,7 @@ class Loss(Struct, frozen=True):
     are_independent: bool
     impossible: int = 0
     everywhere: int = 0
+    lesser: tuple[tuple[str, int, int], ...] = ()
 
     @property
     def here(self) -> tuple[Direction, ...]:
@@ -82,12 +84,8 @@ def loss(
 
     `nonzero` are polynomials in parameters that are taken not to be 0.
     """
-    pivots, rest = core_of_it
-    more, there = core(_held(rest, conditions))
-    pivots += more
-    sizes = range(min(greatest - 1 - pivots, *there.shape), 0, -1)
-    left = next((k for k in sizes if _has_rank(there, k, conditions)), 0)
-    rank = pivots + left
+    there, left, rank = _rank(core_of_it, conditions, greatest - 1)
+    holds = not left or _has_rank_everywhere(there, left, conditions, nonzero)
     held = _held(jacobian, conditions)
 
     def are_independent(directions: Sequence[Direction]) -> bool:
@@ -109,11 +107,42 @@ def loss(
         rank,
         (*found, *limit),
         held,
-        rank_holds=not left or _has_rank_everywhere(there, left, conditions, nonzero),
+        rank_holds=holds,
         are_independent=independent,
         impossible=len(jacobian.rows) - greatest,
         everywhere=len(limit),
+        lesser=() if holds else tuple(_lesser(core_of_it, conditions, rank)),
     )
+
+
+def _rank(
+    core_of_it: tuple[int, Matrix], conditions: Sequence[Condition], most: int
+) -> tuple[Matrix, int, int]:
+    """What is left of a matrix where conditions hold, the rank of that and that of all, at `most` so much."""
+    pivots, rest = core_of_it
+    more, there = core(_held(rest, conditions))
+    pivots += more
+    sizes = range(min(most - pivots, *there.shape), 0, -1)
+    left = next((k for k in sizes if _has_rank(there, k, conditions)), 0)
+    return there, left, pivots + left
+
+
+def _lesser(
+    core_of_it: tuple[int, Matrix], conditions: Sequence[Condition], rank: int
+) -> Iterator[tuple[str, int, int]]:
+    """At which of the two angles with sin q = 0, or cos q = 0, the rank is less: (q, degrees, that rank)."""
+    for condition in conditions:
+        ring = condition.expr.ring
+        others = [one for one in conditions if one is not condition]
+        for pair in ring.pairs:
+            ends = ((pair.sine, pair.cosine, {1: 0, -1: 180}), (pair.cosine, pair.sine, {1: 90, -1: -90}))
+            for known, other, degrees in ends:
+                for sign in degrees if condition.expr == ring.generator(known) else ():
+                    at = Condition(ring.generator(other) - ring.one * sign)
+                    _, _, found = _rank(core_of_it, [*others, at], rank)
+                    if found < rank:
+                        (name,) = names_of(pair.angle)
+                        yield name, degrees[sign], found
 
 
 def _short(directions: Iterable[Direction]) -> tuple[Direction, ...]:

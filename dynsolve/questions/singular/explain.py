@@ -21,7 +21,18 @@ from dynsolve.explain.step import NOTED, TOLD, Detail, Group, Part, Step, not_de
 from dynsolve.explain.working.identities import SILENT
 from dynsolve.explain.writing import agreeing, and_joined, listed, turns
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import ZERO, Matrix, Node, Reference, Row, Transpose, Words, equation
+from dynsolve.notation.tree import (
+    ZERO,
+    Degrees,
+    Matrix,
+    Node,
+    Reference,
+    Row,
+    Symbol,
+    Transpose,
+    Words,
+    equation,
+)
 from dynsolve.quantities import letters
 from dynsolve.questions.rates.explain import loads_along
 from dynsolve.questions.set_forms import vanishing
@@ -214,10 +225,11 @@ def _loss(context: Context, forms: SingularForms, found: SingularSet, case: int)
         id=f"singular_{case + 1}",
         title=f"{what} in case {case + 1}" if len(found.losses) > 1 else f"{what} there",
         why=say(
-            "Where {these}, the rank is {general}{rank} instead of {most}.{told}",
+            "Where {these}, the rank is {general}{rank} instead of {most}.{lesser}{told}",
             these=vanishing(forms.singular[case]),
             general="" if loss.rank_holds else "in general ",
             rank=loss.rank,
+            lesser=tuple(_lesser(loss)),
             most=found.rank,
             told=told,
         ),
@@ -235,6 +247,12 @@ def _loss(context: Context, forms: SingularForms, found: SingularSet, case: int)
         task=_in_general(context),
         is_task=case == 0,
     )
+
+
+def _lesser(loss: Loss) -> Iterator[str | Node]:
+    """The ranks of parts of the set."""
+    for name, degrees, rank in loss.lesser:
+        yield from (" Where ", equation(Symbol(name), Degrees(degrees)), f", the rank is {rank}.")
 
 
 def _lost(loss: Loss) -> str:
