@@ -305,7 +305,7 @@ class Mechanism:
 
     @property
     def singular(self) -> str:
-        """The Jacobian whose rank is looked at: of a wrist that of all six rows, though the task is the tip."""
+        """The Jacobian whose rank is looked at: of a wrist all six rows, though the task is the tip."""
         return str(self.solution.values.rules["singular"].inputs[0])
 
     def momentum(self, of: Node, kind: str, what: str, axis: Node | None, point: Point) -> float:
