@@ -320,8 +320,8 @@ class Collector:
         for place, (atom, exponent) in enumerate(atoms):
             if exponent == 2 and (below := self._denominator(atom)) and not factor % Fraction(below**2, 2):
                 terms = self._of_fractions(atom).items()
-                whole = total([self.product(exact(f * below, 1), mono, ()) for mono, f in terms])
-                factor, atoms[place] = exact(factor, below**2), (self.atoms.number(whole), 2)
+                scaled = total([self.product(exact(f * below, 1), mono, ()) for mono, f in terms])
+                factor, atoms[place] = exact(factor, below**2), (self.atoms.number(scaled), 2)
                 break
         atoms.sort(key=lambda item: self.atoms.ranks[item[0]])
         decimal = self.decimal and not self._is_half_of_letters(factor, atoms)
