@@ -30,7 +30,7 @@ CONDITIONAL = (
     "depend on the configuration", "has no inverse", "Summary > At", " holds where", " hold where",
     "holds only where", "hold only where", "solution only where", "solutions",
     "Singular", "Inverse", "Rates ", "Statics", "Forces from outside", "Equilib", "Balance", "Linearization",
-    "Constraints", "Inertia matrices",  # stages, at a pose or a state of their own
+    "everywhere: it is 0 at", "Constraints", "Inertia matrices",  # stages, at a pose or a state of their own
 )  # fmt: skip
 """In the titles of steps whose equations are conditions (q₂ = 0) or hold under some: they are passed over."""
 
@@ -80,7 +80,7 @@ class Point:
     when it is asked for, by its name or by its letter, one of `letters`.
 
     The forces of motors are free where something acts from outside, or where there are passive coordinates:
-    these are 0 in a motion and not in any state.
+    the `passive` ones are 0 in a motion and not in any state.
     """
 
     known: dict[Node, Value] = field(default_factory=dict)
@@ -88,12 +88,13 @@ class Point:
     names: dict[str, float] = field(default_factory=dict)
     results: dict[str, Callable[[], Value]] = field(default_factory=dict)
     letters: dict[Node, Callable[[], Value]] = field(default_factory=dict)
+    passive: list[Callable[[], Value]] = field(default_factory=list)
     is_read: bool = False
     """Whether the letters of the steps are known, which the report defines."""
 
     def again(self) -> Point:
         """The same for another report, whose letters are its own."""
-        return Point(dict(self.known), self.free)
+        return Point(dict(self.known), self.free, passive=self.passive)
 
     def value(self, node: Node) -> Value:
         """The value of a formula.  Raises Unknown."""
@@ -307,6 +308,8 @@ def state(solution: Any, seed: int, at: Mapping[str, float]) -> Point:
     for name, letter, form, place in _results(solution):
         point.results[name] = point.letters[letter] = _Later(partial(value, form, place))
     coordinates = [q.name for q in robot.coordinates]
+    forces = [point.letters.get(letters.force(q)) for q in robot.coordinates]
+    point.passive = [force for k, force in enumerate(forces) if force and k in robot.actions.passive]
     if robot.questions.loads or robot.questions.constraints or robot.actions.passive:
         point.free = {letters.TAU, *map(letters.force, robot.coordinates)}
     for letter in point.free:
@@ -342,6 +345,12 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
             continue
         count[1] += 1
         letter, *_, value = relation.parts
+        if letter == tree.ZERO and point.passive and _has_accelerations(value):  # a row without a drive
+            found = point.value(value)
+            count[0] += 1
+            if not any(found.close_to(force()) for force in point.passive):
+                yield Untrue(where, letter, value, f"{_plain(found.value)} is no passive force")
+            continue
         if letter in own and not any(isinstance(part, tree.Letter) for part in walk(value)):
             own.discard(letter)  # r = r₂, of the next body
             del point.known[letter]
@@ -363,6 +372,10 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
         for (a, x), (b, y) in pairwise(members):
             if not x.close_to(y):
                 yield Untrue(where, a, b, f"{_plain(x.value)} and {_plain(y.value)}")
+
+
+def _has_accelerations(node: Node) -> bool:
+    return any(isinstance(part, tree.Symbol) and part.dots == 2 for part in walk(node))
 
 
 def _is_of_step(node: Node) -> bool:
