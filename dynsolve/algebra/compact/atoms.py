@@ -347,7 +347,7 @@ class RingAtoms:
                 name, angle = self._functions[a]
                 rest = divide(mono, ((a, 1),))
                 turned = self._of_functions.get((_OTHER[name], angle))
-                if turned is None:
+                if turned is None or not angle.terms:  # cos(17° + 30°) is no number of the ring
                     continue
                 other = multiply(rest, ((turned, 1),))
                 both = beside.get(other, {}) if degrees != 45 else self._divided(beside.get(other, {}), root)

@@ -181,6 +181,10 @@ def test_no_number_stands_before_a_sum_of_fractions(written: str, printed: str) 
         ("m1*a*sin(q1)*cos(45deg)", "sqrt(2)*m1*a*sin(q1)/2"),
         ("m1*a*(sin(q1) - 2*cos(q1))*cos(45deg)", "sqrt(2)*m1*a*(sin(q1) - 2*cos(q1))/2"),
         ("m1*a*(sqrt(3)*sin(q1) - cos(q1))/2", "m1*a*(sqrt(3)*sin(q1) - cos(q1))/2"),
+        (
+            "m1*a*(sin(17deg)*cos(30deg) + cos(17deg)*sin(30deg))",
+            "m1*a*(sqrt(3)*sin(0.29670597283903605) + cos(0.29670597283903605))/2",
+        ),
         ("m1*a*(cos(q1)*cos(25deg) + sin(q1)*sin(25deg))", "m1*a*cos(q1 - 0.4363323129985824)"),
     ],
 )
