@@ -629,7 +629,7 @@ def _verdict(
     slopes = (robot.ring.diff(force, k) for force in forces.entries for k in point.neutral)
     changes = any(not slope.is_zero for slope in slopes)
     if point.inside:
-        inside = side_by_side([*map(shown.inequality, point.inside)])
+        inside = listed([*map(shown.inequality, point.inside)])
         place = say("{place}, where {inside}", place=place, inside=inside)
     is_held = point.is_told and not point.is_open and point.stability is not Stability.UNSTABLE
     along = say(", but for {free}, {why}", free=free, why=_AT_ANY[changes]) if free and is_held else ""

@@ -39,7 +39,7 @@ def beside(export: Export) -> Iterator[tuple[str, Any]]:
         bounds = (*point.inside, *point.conditions)
         needed = [*written(bounds), *(_nonzero(shown, printer, factor) for factor in point.nonzero)]
         if point.stability is Stability.UNSTABLE and needed:  # where a bound is an equality nothing is known
-            return {"stability": Stability.UNDECIDED.value, "unstable_if": needed}
+            return {"stability": Stability.UNDECIDED.value, "unstable_if": [" and ".join(needed)]}
         conditions = {"stable_if": needed} if needed and not point.is_open else {}
         if point.falls:
             conditions["unstable_if"] = written([Bound(-bound.value) for bound in point.conditions])

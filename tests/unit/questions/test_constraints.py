@@ -292,7 +292,9 @@ def test_where_nothing_can_move_nothing_is_said_to_fall() -> None:
     """At h = a + b the constraint leaves one configuration."""
     (_, above) = solve_json(AT_THE_EDGE)["results"]["equilibria_stability"]
     up = next(point for point in above if point.get("u") == "pi/2")
-    assert up == {"u": "pi/2", "stability": "undecided", "unstable_if": ["b + h > a", "a + b > h"]}
+    assert up == {"u": "pi/2", "stability": "undecided", "unstable_if": ["b + h > a and a + b > h"]}
+    shown = " ".join(report(dynsolve.solve(AT_THE_EDGE), Format.TEXT).decode().split())
+    assert "at u = 90°, where b + h > a and a + b > h: not stable" in shown
 
 
 def test_a_condition_that_is_0_all_along_decides_nothing() -> None:
