@@ -39,6 +39,8 @@ from dynsolve.questions.held import Held
 from dynsolve.robot.model import Robot
 
 _STEP = 1e-5
+_WIDE = 0.1
+_CURVE_STEPS = 10
 _NEAR = 1e-6
 _NEWTON_STEPS = 60
 _TINY = 1e-12
@@ -259,11 +261,17 @@ def _turn(robot: Robot, state: dict[str, float], angle: Angle, size: float) -> N
 def _rises(robot: Robot, forces: Program, at: Mapping[str, float], point: Point) -> bool:
     """Whether the energy rises but along what is neutral."""
     if robot.questions.constraints:
-        return _rises_along(robot, forces, at)
+        return _rises_on_curve(robot, forces, at) if point.higher else _rises_along(robot, forces, at)
     steady = dict(robot.questions.model.steady)
     rest = [q for q in robot.coordinates if q.index - 1 not in point.neutral and q.name not in steady]
     rows = []
+    flat = {one.coordinate for one in point.higher}
     for q in rest:
+        if q.index - 1 in flat:
+            ahead, behind = (forces.run({**at, q.name: at[q.name] + step})[0] for step in (_WIDE, -_WIDE))
+            rises = ahead[q.index - 1][0] > 0 > behind[q.index - 1][0]
+            rows.append([(1.0 if rises else -1.0) * (k is q) for k in rest])
+            continue
         ahead, behind = (forces.run({**at, q.name: at[q.name] + step})[0] for step in (_STEP, -_STEP))
         rows.append([(ahead[k.index - 1][0] - behind[k.index - 1][0]) / (2 * _STEP) for k in rest])
     return is_positive_definite(rows)
@@ -304,6 +312,34 @@ def _between(vectors: Sequence[Sequence[float]], slopes: Sequence[Sequence[float
 def _rises_along(robot: Robot, program: Program, at: Mapping[str, float]) -> bool:
     """Whether the energy rises along what constraints leave free."""
     return is_positive_definite(_between(free_directions(program.run(at)[1]), _slopes(robot, program, at)))
+
+
+def _rises_on_curve(robot: Robot, program: Program, at: Mapping[str, float]) -> bool:
+    """Whether the energy rises to both sides along the curve that constraints leave free (Runge and Kutta)."""
+    names = [q.name for q in robot.coordinates]
+
+    def moved(q: Mapping[str, float], direction: Sequence[float], step: float) -> dict[str, float]:
+        return {**q, **{name: q[name] + step * x for name, x in zip(names, direction, strict=True)}}
+
+    def pull(step: float) -> float:
+        q, (ahead,) = at, free_directions(program.run(at)[1])
+
+        def along(q: Mapping[str, float]) -> list[float]:
+            (found,) = free_directions(program.run(q)[1])
+            turned = sum(x * y for x, y in zip(found, ahead, strict=True)) < 0
+            return [-x if turned else x for x in found]
+
+        for _ in range(_CURVE_STEPS):
+            first = along(q)
+            second = along(moved(q, first, step / 2))
+            third = along(moved(q, second, step / 2))
+            last = along(moved(q, third, step))
+            four = zip(first, second, third, last, strict=True)
+            q = moved(q, [(a + 2 * b + 2 * c + d) / 6 for a, b, c, d in four], step)
+            ahead = along(q)
+        return sum(x * force[0] for x, force in zip(ahead, program.run(q)[0], strict=True))
+
+    return pull(_WIDE / _CURVE_STEPS) > 0 > pull(-_WIDE / _CURVE_STEPS)
 
 
 def _slopes(robot: Robot, program: Program, at: Mapping[str, float]) -> list[list[float]]:

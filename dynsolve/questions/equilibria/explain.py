@@ -50,7 +50,7 @@ from dynsolve.questions.equilibria.solving import (
     multipliers,
     wanted_rows,
 )
-from dynsolve.questions.equilibria.stability import Point, Stability, by_coordinates, turned
+from dynsolve.questions.equilibria.stability import Higher, Point, Stability, by_coordinates, turned
 from dynsolve.questions.forward_dynamics.derive import outside_names
 from dynsolve.questions.set_forms import SetForms, vanishing
 from dynsolve.robot.model import JointType, Robot
@@ -635,7 +635,19 @@ def _verdict(
     along = say(", but for {free}, {why}", free=free, why=_AT_ANY[changes]) if free and is_held else ""
     if point.drifts:
         along = (", but for motions along the equilibria, in which nothing changes",)
-    return say("{place}: {said}{along}.", place=place, said=said, along=along)
+    higher = tuple(part for one in point.higher for part in _higher(shown, one))
+    return say("{place}: {said}{along}.{higher}", place=place, said=said, along=along, higher=higher)
+
+
+def _higher(shown: EquilibriaForms, one: Higher) -> Prose:
+    """The first derivative by x that is not 0 there is the fourth, 24c: its sign decides."""
+    by = say("along $𝐙$")
+    if one.coordinate is not None:
+        by = say("by {name}", name=Symbol(shown.robot.coordinates[one.coordinate].name))
+    value = say(", {value}", value=shown.compactor(one.value.ring).form(one.value)) if one.is_exact else ()
+    decides = ": beside it the energy falls on one side" if one.order % 2 else ", and its sign decides"
+    text = " The first derivative of the energy {by} that is not 0 there is the {order}{value}{decides}."
+    return say(text, by=by, order=_ORDINALS[one.order], value=value, decides=decides)
 
 
 def _root(shown: EquilibriaForms, found: Equilibria, point: Point) -> str:
@@ -648,6 +660,7 @@ def _root(shown: EquilibriaForms, found: Equilibria, point: Point) -> str:
     return ""
 
 
+_ORDINALS = {3: "third", 4: "fourth", 5: "fifth", 6: "sixth", 7: "seventh", 8: "eighth"}
 _AT_ANY = ("along which nothing changes", "with any value of which it is an equilibrium")
 
 _VERDICTS: dict[Stability, Prose] = {

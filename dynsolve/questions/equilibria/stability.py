@@ -7,6 +7,10 @@ any principal minor is negative.  Parameters count as positive; a leading minor 
 open is a condition for stability: where it is negative the equilibrium is unstable, and only where
 it is 0 the second derivatives do not decide.
 
+Where the energy is a function of one coordinate and one of the others, or one coordinate is all that
+constraints leave free, and the second derivative is 0, the first that is not decides: the energy has a
+minimum there if it is of even order and positive.
+
 Where rates are held constant the energy is that of steady motion, and forces across the motion, which
 do no work, may hold what would fall: then nothing is called unstable.
 
@@ -35,6 +39,7 @@ from dynsolve.algebra.linear_systems import part, rank_parts
 from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.algebra.rationals import fraction, rational
 from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.algebra.spaces import nullspace
 from dynsolve.derivation.elimination import ParameterSigns, Turn, is_more, turn_of
 from dynsolve.derivation.existence import DEGREES, Pose, conditions, rests, square_of
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, with_numbers
@@ -49,6 +54,12 @@ MOST_POINTS = 16
 
 MOST_TURNING = 6
 """With more sines and cosines the least value of an expression is not looked for."""
+
+MOST_ORDER = 8
+"""No derivatives of higher order are looked at,"""
+
+MOST_DERIVED_TERMS = 200
+"""nor those of expressions with more terms."""
 
 MOST_PRODUCTS = 50_000
 """Second derivatives whose determinant may come to more products of terms are not looked at."""
@@ -100,6 +111,23 @@ class Stability(StrEnum):
     UNDECIDED = "undecided"
 
 
+class Higher(Struct, frozen=True):
+    """The first derivative of the energy that is not 0, above the second, up to a positive factor.
+
+    It is that by a `coordinate`, from 0, or where there is none along what constraints leave free.
+    """
+
+    coordinate: int | None
+    order: int
+    value: Expr
+    is_exact: bool
+
+    @property
+    def curvature(self) -> Expr:
+        """What has the sign of a second derivative instead: negative where the energy falls to one side."""
+        return -self.value * self.value if self.order % 2 else self.value
+
+
 class Point(Struct, frozen=True):
     """Quarter turns of angles in a case, and how stable the arm is there.
 
@@ -111,7 +139,7 @@ class Point(Struct, frozen=True):
     stand in conditions where their values are not known; `is_open` says that it is not told where it is
     stable.  All this is so
     where the case is there and none of its bounds, `inside`, is an equality.  `along` is what constraints
-    leave of the second derivatives.
+    leave of the second derivatives, and `higher` are those looked at where some of these are 0.
     """
 
     values: Values
@@ -124,6 +152,7 @@ class Point(Struct, frozen=True):
     drifts: bool = False
     inside: tuple[Bound, ...] = ()
     along: Along | None = None
+    higher: tuple[Higher, ...] = ()
 
     @property
     def is_told(self) -> bool:
@@ -158,7 +187,7 @@ class Point(Struct, frozen=True):
             for times in product(*map(range, periods.values()))
         )
         pairs = tuple(pair.angle for pair, _, _ in self.values)
-        return pairs, min(poses), replace(self, values=(), along=None)
+        return pairs, min(poses), replace(self, values=(), along=None, higher=())
 
     def put(self, exprs: Sequence[Expr]) -> list[Expr]:
         """What expressions are at its quarter turns."""
@@ -238,6 +267,10 @@ class Curvature(Struct, frozen=True):
             _turned(ring, pose) for pose in rests([one.expr for one in others if not one.fixes_length])
         ]
 
+        def whole(values: Values, second: Matrix, here: Here) -> Point:
+            drifting = self._drifting(values, second, signs, len(alternative))
+            return drifting or self._point(values, second, signs, free, here)
+
         def point_at(values: Values) -> Point | None:
             left = _put(Matrix.column(ring, [other.expr for other in others]), values).entries
             if conditions(left, signs) is None:
@@ -247,9 +280,12 @@ class Curvature(Struct, frozen=True):
                 along = self.held.along(self.second, here)
                 point = Point(values, Stability.UNDECIDED)
                 return point if along is None else self._held_point(values, along, signs, here)
-            at = here(self.second)
-            drifting = self._drifting(values, at, signs, len(alternative))
-            return drifting or self._point(values, at, signs, free, here)
+            point = whole(values, here(self.second), here)
+            if point.stability is not Stability.UNDECIDED or not (higher := tuple(self._apart(here))):
+                return point
+            at, instead = here(self.second), {one.coordinate: one.curvature for one in higher}
+            rows = [[*row[:k], instead.get(k, row[k]), *row[k + 1 :]] for k, row in enumerate(at.rows)]
+            return replace(whole(values, Matrix.of(ring, rows), here), higher=higher)
 
         for values in product(*turns):
             point = point_at(values)
@@ -264,7 +300,12 @@ class Curvature(Struct, frozen=True):
     def _held_point(self, values: Values, along: Along, signs: ParameterSigns, here: Here) -> Point:
         """The stability along what constraints leave free, where their rows are independent."""
         apart = signs.beside(nonzero=signs.open_factors(along.divisor))
-        point = replace(self._point(values, along.without_fractions, apart, (), here), along=along)
+        second, higher = along.without_fractions, self._on_curve(along, here)
+        if higher is not None:
+            second = Matrix.of(second.ring, [[higher.curvature]])
+        point = replace(self._point(values, second, apart, (), here), along=along)
+        if higher is not None:
+            point = replace(point, higher=(higher,))
         inside = signs.beside(*point.conditions)
         dependent = tuple(inside.open_factors(along.size))
         if not dependent or not point.is_told:
@@ -273,6 +314,30 @@ class Curvature(Struct, frozen=True):
         is_unstable = point.stability is Stability.UNSTABLE
         stability = Stability.UNSTABLE if is_unstable else Stability.UNDECIDED
         return replace(point, stability=stability, nonzero=nonzero)
+
+    def _apart(self, here: Here) -> Iterator[Higher]:
+        """The coordinates of which the energy has a summand of its own, whose second derivative is 0."""
+        second, n = self.second, len(self.second.rows)
+        flat = here(second)
+        for k in range(n):
+            is_apart = all(second[k, j].is_zero for j in range(n) if j != k)
+            if is_apart and flat[k, k].is_zero:
+                found = _first_derivative(second[k, k], 2, partial(second.ring.diff, k=k), here)
+                yield from [replace(found, coordinate=k)] if found else []
+
+    def _on_curve(self, along: Along, here: Here) -> Higher | None:
+        """Where one coordinate is free and the second derivative along Z is 0."""
+        if self.held is None or along.free.shape[1] > 1 or not along.without_fractions.is_zero:
+            return None
+        ring, Z = self.second.ring, nullspace(self.held.A)
+        if (at := here(Z)).is_zero:
+            return None
+
+        def slope(value: Expr) -> Expr:
+            return ring.dot(Z.entries, [ring.diff(value, k) for k in range(len(ring.names))])
+
+        found = _first_derivative(ring.dot(Z.entries, self.held.g.entries), 1, slope, here)
+        return replace(found, is_exact=found.is_exact and at == along.free) if found else None
 
     def _drifting(self, values: Values, second: Matrix, signs: ParameterSigns, held: int) -> Point | None:
         """The stability where equilibria, of which `held` conditions are asked, are all that is flat.
@@ -337,6 +402,18 @@ class Curvature(Struct, frozen=True):
             told = conditions if falls else ()  # along what is neutral it comes to where they do not hold
             return Point(values, Stability.UNDECIDED, neutral, told, (), falls, is_open=True)
         return Point(values, Stability.UNDECIDED, neutral, conditions, apart, falls)
+
+
+def _first_derivative(value: Expr, order: int, slope: Callable[[Expr], Expr], here: Here) -> Higher | None:
+    """The first derivative of a derivative of some order, with `slope` again and again, that is not 0 here."""
+    for following in range(order + 1, MOST_ORDER + 1):
+        if value.is_zero or len(value) > MOST_DERIVED_TERMS:
+            return None
+        value = slope(value)
+        at, unit = here(Matrix.column(value.ring, [value, value.ring.one])).entries
+        if not at.is_zero:
+            return Higher(None, following, at, unit == value.ring.one)
+    return None
 
 
 Minor = Callable[[tuple[int, ...]], Expr]

@@ -421,7 +421,7 @@ def test_only_where_both_sides_are_equal_nothing_is_decided() -> None:
 
 def test_a_row_that_is_0_at_a_point_alone_leaves_nothing_neutral() -> None:
     """P = y²/2 - x⁴ falls along x, where its second derivatives are 0."""
-    assert of_energy("c*y^2/2 - b*x^4", "xy")["equilibria_stability"] == [[{"stability": "undecided"}]]
+    assert of_energy("c*y^2/2 - b*x^4", "xy")["equilibria_stability"] == [[{"stability": "unstable"}]]
 
 
 PUSHED = (
@@ -1548,6 +1548,63 @@ find: [equilibria]
     along, folded = dynsolve.solve(slope).to_json()["results"]["equilibria_stability"][0]
     assert len(along["stable_if"]) == 1 and along["q2"] == "0"
     assert folded == {"q2": "pi", "stability": "unstable"}
+
+
+APART = """
+gravity: none
+model: {{coordinates: {{x: prismatic, a: revolute}}, D: [[m, 0], [0, J]]}}
+springs: [{{energy: "{energy}"}}]
+find: [equilibria]
+"""
+
+
+@pytest.mark.parametrize(
+    ("energy", "points", "said"),
+    [
+        ("c*x^4 + k*a^2", [{"stability": "stable"}], "by x that is not 0 there is the fourth, 24c, and"),
+        ("c*x^3 + k*a^2", [{"stability": "unstable"}], "is the third, 6c: beside it the energy falls"),
+        ("k*a^2 - c*x^6", [{"stability": "unstable"}], "is the sixth, -720c, and its sign decides"),
+        (
+            "(c - d)*x^4 + k*(1 - cos(a))^2",
+            [
+                {"a": "0", "stability": "undecided", "stable_if": ["c > d"], "unstable_if": ["d > c"]},
+                {"a": "pi", "stability": "unstable"},
+            ],
+            "24(c - d), and its sign decides. The first derivative of the energy by a that is not 0",
+        ),
+        # what belongs to no coordinate alone
+        (
+            "c*x^2*a^2 + c*x^4 + c*a^4",
+            [{"a": "0", "stability": "undecided"}, {"stability": "undecided"}],
+            "second derivatives alone do not decide",
+        ),
+    ],
+)
+def test_where_a_second_derivative_is_0_the_first_that_is_not_decides(
+    energy: str, points: list[dict[str, Any]], said: str
+) -> None:
+    solution = dynsolve.solve(APART.format(energy=energy))
+    assert solution.to_json()["results"]["equilibria_stability"][0] == points
+    assert said in " ".join(report(solution, Format.TEXT).decode().split())
+
+
+@pytest.mark.parametrize(
+    ("curve", "stability", "said"),
+    [
+        ("y - x^3", "unstable", "along 𝐙 that is not 0 there is the third, 6m g: beside it the energy falls"),
+        ("a^3*y - x^4", "stable", "along 𝐙 that is not 0 there is the fourth, and its sign decides"),
+        ("a^3*y + x^4", "unstable", "along 𝐙 that is not 0 there is the fourth, and its sign decides"),
+    ],
+)
+def test_on_a_curve_the_first_derivative_that_is_not_0_decides(curve: str, stability: str, said: str) -> None:
+    solution = dynsolve.solve(f"""
+gravity: [0, -g, 0]
+model: {{coordinates: {{x: prismatic, y: prismatic}}, bodies: [{{mass: m, at: [x, y, 0]}}]}}
+constraints: [{curve}]
+find: [equilibria]
+""")
+    assert solution.to_json()["results"]["equilibria_stability"] == [[{"stability": stability}]]
+    assert said in " ".join(report(solution, Format.TEXT).decode().split())
 
 
 @pytest.mark.parametrize(
