@@ -21,6 +21,7 @@ so one coordinate after the other is taken out.
     A + B cos θ + C sin θ            A - √(B² + C²), so A > 0 and A² > B² + C²; A > |B| where C = 0
     A + B cos² θ + C sin θ cos θ     the same of 2θ
     A + B d + C d²,  d a length      A - B²/(4C), so C > 0 and 4AC > B²; also A > 0 where B = C = 0
+    A + B d² + C d⁴                  C ≥ 0, and A > 0 at d = 0 where B ≥ 0; A - B²/(4C) where B ≤ 0
 """
 
 from __future__ import annotations
@@ -186,9 +187,9 @@ def _without_length(d: int, extreme: Extreme, assumed: Sequence[Bound]) -> list[
     strict = extreme.bound.is_strict
     A, B, C = (found.get(k, ring.zero) for k in range(3))
     if all(power % 2 == 0 for power in found):
-        if any(power > 2 for power in found):
+        if any(power > 4 for power in found):
             return None
-        return [extreme.at(d, 0, Bound(A, strict)), replace(extreme, bound=Bound(C, False))]
+        return _in_squares(extreme, d, (A, C, found.get(4, ring.zero)), assumed)
     if max(found) == 1:
         return [replace(extreme, bound=Bound(-B * B, False)), extreme.at(d, 0, Bound(A, strict))]
     if max(found) > 2 or not strict:
@@ -196,6 +197,23 @@ def _without_length(d: int, extreme: Extreme, assumed: Sequence[Bound]) -> list[
     needed = extreme.needed and follows(Bound(C), assumed)
     bounds = (Bound(C), Bound(A * C * 4 - B * B))
     return [replace(extreme, bound=bound, needed=needed) for bound in bounds]
+
+
+def _in_squares(
+    extreme: Extreme, d: int, coefficients: Sequence[Expr], assumed: Sequence[Bound]
+) -> list[Extreme] | None:
+    """A + B x + C x² over all x ≥ 0, the square of a length."""
+    A, B, C = coefficients
+    at_0 = extreme.at(d, 0, Bound(A, extreme.bound.is_strict))
+    linear, leading = (replace(extreme, bound=Bound(one, False)) for one in (B, C))
+    if follows(linear.bound, assumed) or follows(Bound(-C, False), assumed):  # C may be 0, and no more
+        return [at_0, leading, linear]
+    over_roots = A * C * 4 - B * B
+    if follows(Bound(-B, False), assumed) and follows(Bound(C), assumed):
+        return [at_0, replace(extreme, bound=Bound(over_roots, extreme.bound.is_strict))]
+    if B.ring.depends_on_coordinates(B):
+        return None
+    return [at_0, leading, replace(linear, needed=False)]
 
 
 MOST_WORK = 20_000

@@ -77,6 +77,18 @@ CONDITIONS = {
         of_three("a - b*cos(q2)^2 + cos(q2)^4", "0", "[a > 0, b > 0]"),
         ["1 + a - b > 0", "4*a - b**2 > 0"],
     ),
+    "a square of a length off the diagonal": (
+        file("[[a + c*d^2, b*d^2, 0], [b*d^2, 1, 0], [0, 0, 1]]"),
+        ["a > 0", "b = 0", "c >= 0"],
+    ),
+    "a parabola in the square of a length": (
+        file("[[1 + d^2, e*d, 0], [e*d, 1 + d^2, 0], [0, 0, 1]]", "[e^2 > 2]"),
+        ["4 - e**2 > 0"],
+    ),
+    "what is enough of a parabola in the square of a length": (
+        file("[[1 + d^2, e*d, 0], [e*d, 1 + d^2, 0], [0, 0, 1]]"),
+        ["2 - e**2 >= 0"],
+    ),
     "a product on the diagonal": (
         file("[[a, b*sin(q1), 0], [b*sin(q1), c, 0], [0, 0, 1]]"),
         ["a > 0", "a*c - b**2 > 0"],
