@@ -64,7 +64,7 @@ __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "is_long"]
 LONG = 1500
 """The operations in D, C and g together from which on names make them readable: some five pages."""
 
-CONSTANT, RECURRING, SINGLE = "kappa", "sigma", "h"
+CONSTANT, RECURRING, SINGLE = "kappa", "sigma", ("h", "kappa", "chi")
 
 CONSTANTS_LIST, SUMS_LIST = "constants", "recurring"
 """What the two lists of names are called where others refer to them."""
@@ -247,7 +247,7 @@ class Abbreviated(Struct, frozen=True):
     @property
     def single(self) -> Definition | None:
         """h, where it is what all Christoffel symbols are but for sign."""
-        return next((one for one in self.of_symbols if one.name == Symbol(SINGLE)), None)
+        return next((one for one in self.of_symbols if one.name.name in SINGLE), None)
 
     @property
     def symbols(self) -> frozenset[Node]:
@@ -263,7 +263,7 @@ class Abbreviated(Struct, frozen=True):
 def symbols_put(symbols: Iterable[Definition], node: Node) -> Node:
     """A tree with the names of symbols in the places of what they mean; not with h, which is a glance."""
     for one in symbols:
-        node = node if one.name == Symbol(SINGLE) else Exchange.of(one).put(node)
+        node = node if one.name.name in SINGLE else Exchange.of(one).put(node)
     return node
 
 
@@ -330,8 +330,8 @@ def _assembled(
     taken = short_names_taken(forms.robot)
     name = partial(name_recurring, list(parts.values()), whole=long, decimal=forms.robot.has_decimals)
     sums, used = name(free_names(RECURRING, taken))
-    if len(sums) == 1 and SINGLE not in taken:
-        (one,), used = name(iter([Symbol(SINGLE)]))
+    if len(sums) == 1 and (single := free_single(taken)):
+        (one,), used = name(iter([single]))
         minus, written = negated(one.name), dict(zip(parts, used, strict=True))
         shown = [written["c", *ijk] for ijk in as_shown(symbols)]
         if next((each for each in shown if each in (one.name, minus)), None) == minus:
@@ -364,8 +364,13 @@ def _assembled(
 
 def short_names_taken(robot: Robot) -> frozenset[str]:
     """What already means something: parameters, coordinates, bodies, and h where constraints are h = 0."""
-    own = {SINGLE} if robot.questions.constraints else set()
+    own = {"h"} if robot.questions.constraints else set()
     return names_taken(robot).union((body.name for body in robot.bodies), own)
+
+
+def free_single(taken: AbstractSet[str]) -> Symbol | None:
+    """h, or what stands in for it where the problem has an h."""
+    return next((Symbol(name) for name in SINGLE if name not in taken), None)
 
 
 def free_names(letter: str, taken: AbstractSet[str]) -> Iterator[Symbol]:

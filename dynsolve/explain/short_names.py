@@ -21,7 +21,6 @@ from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.abbreviations import (
     RECURRING,
-    SINGLE,
     WITH_RATES,
     Abbreviated,
     Exchange,
@@ -29,6 +28,7 @@ from dynsolve.explain.abbreviations import (
     InertiaNames,
     as_shown,
     free_names,
+    free_single,
     short_names_taken,
     symbols_put,
 )
@@ -173,10 +173,10 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
     order = [values[key] for key in as_shown(values)]
     definitions: Sequence[Definition] = ()
     made: dict[Expr, Node] = {}
-    if SINGLE not in taken and _is_one_value(forms, values):
+    if (single := free_single(taken)) and _is_one_value(forms, values):
         first = next(value for value in order if not value.is_zero)  # it has a plus
-        definitions = (Definition(Symbol(SINGLE), form(first)),)
-        made = {first: Symbol(SINGLE), -first: Negative(Symbol(SINGLE)), robot.ring.zero: ZERO}
+        definitions = (Definition(single, form(first)),)
+        made = {first: single, -first: Negative(single), robot.ring.zero: ZERO}
     elif sum(cost(inertias.put(entry)) for row in C.rows for entry in row) >= LONG_CORIOLIS:
         beside = () if robot.is_numeric else (D, g)  # in numbers 0.48 c₂₃ is a multiple by accident
         namer = _SymbolNames(form, order, free, *beside)
@@ -185,7 +185,7 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
     sums = (*inertias.definitions, *definitions)
     if not sums:
         return None
-    names_of_symbols = {one.name for one in definitions if one.name != Symbol(SINGLE)}
+    names_of_symbols = {one.name for one in definitions if one.name != single}
     named = {value: node for value, node in made.items() if not names_of_symbols.isdisjoint(walk(node))}
     C = coriolis_matrix(robot.ring.names, lambda i, j, k: symbols[min(i, j), max(i, j), k])
 

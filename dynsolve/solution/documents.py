@@ -362,7 +362,7 @@ class _Names(Struct):
         defined = Reference(labels_of_names(list(self.by_id.values()), self.short), ", by ")
         told = sorted(
             (one for one in self.short.sums if one.name in met),
-            key=lambda one: (len(one.name.name), one.name.name),
+            key=lambda one: (one == self.short.single, len(one.name.name), one.name.name),
         )
         meanings = tuple(equation(one.name, one.meaning) for one in told)
         if self.short.single is not None and len(meanings) == 1:

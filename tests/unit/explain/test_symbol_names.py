@@ -211,10 +211,25 @@ def test_names_are_defined_before_they_are_used(detail: Detail, problem: str) ->
         assert place == 0 or first.signs[place - 1] == "=:"
 
 
+def test_a_summary_defines_what_h_is_made_of_before_h() -> None:
+    shown = [to_unicode(node) for node in displayed(document("five-bar", Detail.RESULTS).blocks)]
+    (h,) = (text for text in shown if text.startswith("h = "))
+    (sigma,) = (text for text in shown if text.startswith("σ₁ = "))
+    assert "σ₁" in h and shown.index(sigma) < shown.index(h)
+
+
+WITH_AN_H = """
+gravity: none
+dh: [{theta: q1*, d: h, a: l}, {theta: q2*, a: l}]
+masses: [{mass: m, link: 2, center: tip}]
+"""
+
+
 @pytest.mark.parametrize(("problem", "symbols"), [
     ("planar-2r", ["-m₂ l₁ l_c2 s₂ =: h", "h", "-h"]),  # section 7.4
     ("crustcrawler-2r", ["-L₂² (m₂ + 3m_p) s₂ c₂/3 =: h", "-h"]),
     ("five-bar", ["-σ₁ sin(q₂ - q₁) =: h", "-h"]),
+    (WITH_AN_H, ["-m l² s₂ =: κ", "κ", "-κ"]),
 ])  # fmt: skip
 def test_what_all_symbols_are_is_the_books_h(problem: str, symbols: list[str]) -> None:
     style, result = solved(problem).style, steps(problem)["christoffel"].result
