@@ -225,8 +225,8 @@ _HELD = formula("𝐀_cᵀ 𝛌")
 def closing_step(context: Context) -> Step:
     """D q̈ + C q̇ + g = τ, with friction on the left, Q and A_cᵀ λ on the right where there are any."""
     robot = context.robot
-    of_rates = () if context.values["C"].is_zero else ("C",)
-    names = ("D", *of_rates, *robot.actions.resistance, "g")
+    names = ["D", "C", *robot.actions.resistance, "g"]
+    names = [name for name in names if name not in ("C", "g") or not context.values[name].is_zero]
     qd, qdd = (column(*(Symbol(q.name, dots) for q in robot.coordinates)) for dots in (1, 2))
     passive = robot.actions.passive
     forces = column(*(ZERO if k in passive else letters.force(q) for k, q in enumerate(robot.coordinates)))
@@ -237,15 +237,9 @@ def closing_step(context: Context) -> Step:
         and all(matrix_width(context, context.matrix(name)) <= WIDEST for name in names)
     ):
         times_rates = {"D": qdd, "C": qd}
-        left = Sum(
-            tuple(
-                Product((context.result(name), times_rates[name]))
-                if name in times_rates
-                else context.result(name)
-                for name in names
-            )
-        )
-        result = (equation(left, sum_of([forces, *_beside_motors(context)])),)
+        parts = {name: context.result(name) for name in names}
+        left = [Product((part, times_rates[n])) if n in times_rates else part for n, part in parts.items()]
+        result = (equation(sum_of(left), sum_of([forces, *_beside_motors(context)])),)
     return Step(
         id=ID,
         title="The dynamical model",

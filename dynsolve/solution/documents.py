@@ -41,7 +41,6 @@ from dynsolve.document.books import GAUTIER_KHALIL, KHALIL_DOMBRE, cited, of_sec
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
-from dynsolve.explain.christoffel import NO_CORIOLIS
 from dynsolve.explain.given import at_the_state, holds_at_state, in_words, statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.signs import formulas_in
@@ -50,6 +49,7 @@ from dynsolve.explain.terms import ID, driving_row, rows_in_names
 from dynsolve.explain.writing import is_small, listed, machine, measured, side_by_side
 from dynsolve.notation.printing import Style
 from dynsolve.notation.rounding import is_rounded, marked, marked_among_words
+from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
@@ -177,10 +177,15 @@ def _measured(
     if not isinstance(matrix, Matrix):
         return replace(node, parts=(*before, measured(value, unit)))
     write = UnicodePrinter(style).text
-    is_zero = all(entry == ZERO for row in matrix.rows for entry in row)
-    if is_zero or any(sum(width(write(entry)) + 2 for entry in row) > _WIDEST for row in matrix.rows):
+    if _is_zero(matrix) or any(
+        sum(width(write(entry)) + 2 for entry in row) > _WIDEST for row in matrix.rows
+    ):
         return node
     return replace(node, parts=(*before, Row((value, Words(" "), units.node(unit)))))
+
+
+def _is_zero(node: Node) -> bool:
+    return isinstance(node, Matrix) and all(entry == ZERO for row in node.rows for entry in row)
 
 
 # The section that closes a solution: the model, its matrices, the forces row by row
@@ -188,6 +193,9 @@ def _measured(
 TITLE = "Summary"
 
 _MATRICES = ("D", "C", "friction", "g")
+
+_ZERO = {"C": formula("𝐂 = 𝟎"), "g": formula("𝐠 = 𝟎")}
+"""What is left out of the equation of motion where it is zero."""
 
 _ACCELERATIONS = ("qdd", "qdd_forward")
 """Two results of one letter."""
@@ -238,7 +246,7 @@ def summary_blocks(
         None if short is None or not short.at_symbols else _Names(robot, by_id, short, tuple(_nodes(others)))
     )
     if model is not None and is_short:
-        yield from _model(robot, model, by_id, detail, names)
+        yield from _model(robot, model, by_id, detail, names, forms)
     elif model is not None:
         yield from _long_model(robot, model, by_id, detail, sections)
     else:
@@ -280,7 +288,12 @@ def in_model(robot: Robot) -> frozenset[str]:
 
 
 def _model(
-    robot: Robot, model: Step, by_id: Mapping[str, Step], detail: Detail, names: _Names | None
+    robot: Robot,
+    model: Step,
+    by_id: Mapping[str, Step],
+    detail: Detail,
+    names: _Names | None,
+    forms: Callable[[str], Node],
 ) -> Iterator[Block]:
     """The equation of motion in letters and in matrices, and row by row; the names in it."""
     if detail is Detail.FULL:
@@ -293,19 +306,20 @@ def _model(
         rows = [node for line in model.lines for node in line.formulas]
         yield from names.told(own, rows or [step.result[0] for step in forces])
     if robot.n > 1 or detail is Detail.RESULTS:
-        yield from _matrices(robot, model, own)
+        yield from _matrices(robot, model, own, forms)
     yield from _lines(model)
     if not model.lines and len(forces) == robot.n:
         yield from _rows(robot, forces, [step.result[0] for step in forces])
 
 
-def _matrices(robot: Robot, model: Step, own: Sequence[Step]) -> Iterator[Block]:
-    """The matrices in the equation of motion, or by themselves."""
+def _matrices(
+    robot: Robot, model: Step, own: Sequence[Step], forms: Callable[[str], Node]
+) -> Iterator[Block]:
+    """The matrices in the equation of motion, without those that are zero, or by themselves."""
     matrices = tuple(Formula(step.result[0], entries=step.entries) for step in own)
-    what = "With the matrices" if model.result else "The matrices"
-    are_left_out = model.result and any(NO_CORIOLIS in step.result for step in own)
-    left_out: Prose = (" and ", NO_CORIOLIS) if are_left_out else ()
-    yield Text((what, f" of the {machine(robot)}", Reference(_MATRICES, ", "), *left_out, ":"))
+    what = f"{'With the' if model.result else 'The'} matrices of the {machine(robot)}"
+    zero = [text for name, text in _ZERO.items() if model.result and _is_zero(forms(name))]
+    yield Text((*listed([(what, Reference(_MATRICES, ", ")), *zero]), ":"))
     if model.result:
         yield from (Formula(result, entries=model.entries, otherwise=matrices) for result in model.result)
     else:

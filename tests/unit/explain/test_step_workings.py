@@ -8,6 +8,7 @@ import pytest
 
 from dynsolve.explain.step import Detail
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem.reader import find
 from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
 from tests.support import solved
@@ -123,6 +124,8 @@ def test_a_constant_d_has_no_list_of_zeros_and_no_other_c() -> None:
     assert normal.count("zero.") == full.count("so every Christoffel symbol is zero.") == 1
     assert "cᵢⱼₖ = ½" in full and "cᵢⱼₖ" not in normal
     assert "With the matrices of the arm and 𝐂 = 𝟎:" in normal
+    weightless = solved(find("cartesian-pp").read_text().replace("[0, 0, -g]", "none"))
+    assert "With the matrices of the arm, 𝐂 = 𝟎 and 𝐠 = 𝟎:" in report(weightless, Format.TEXT).decode()
     (note,) = step("planar-2r", "christoffel").notes
     assert said(note, "planar-2r") == "c₁₁₁ and c₂₂₂ are zero."
     (note,) = step("rp-vertical", "christoffel").notes
