@@ -214,7 +214,6 @@ def is_too_long(results: Sequence[Node]) -> bool:
 
 
 def _size(node: Node) -> int:
-    """The operations in a result."""
     value = node.parts[-1] if isinstance(node, Relation) else node
     if isinstance(value, tree.Matrix):
         return sum(_size(entry) for row in value.rows for entry in row)

@@ -435,7 +435,6 @@ def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
 
 
 def _constant_angles(robot: Robot) -> frozenset[str]:
-    """The names of angles that no coordinate adds to."""
     names = (frozenset(names_of(pair.angle)) for pair in robot.ring.pairs)
     return frozenset().union(*(own for own in names if own.isdisjoint(robot.ring.names)))
 
@@ -604,7 +603,6 @@ class ProductForms:
 
 
 def _has_halves(*exprs: Expr) -> bool:
-    """Whether a coefficient is a fraction."""
     return any(factor.q != 1 for expr in exprs for factor in expr.poly.coeffs())
 
 

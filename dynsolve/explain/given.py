@@ -18,7 +18,6 @@ from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Expr
-from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.reached import angle_rows
 from dynsolve.document import Block, Formula, Inline, List, Prose, Text
 from dynsolve.document.sentences import opened, say
@@ -27,7 +26,7 @@ from dynsolve.explain.forms import Forms
 from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.inertia import has_link_axes, is_moved, lies_as_drawn, stays_with_base
 from dynsolve.explain.kinematics import turned
-from dynsolve.explain.mass_centers import Place, ends, is_given_by, other_end, part_of_the_way
+from dynsolve.explain.mass_centers import Place, ends, in_formulas, other_end, part_of_the_way
 from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.parameter_meanings import DIMENSIONS, SHAPES, roles, units_of_values
 from dynsolve.explain.textbook_letters import Line
@@ -60,7 +59,6 @@ from dynsolve.notation.tree import (
     number,
     walk,
 )
-from dynsolve.problem.bodies import NOT_DRAWN, DrawnFrames
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.families import DH
@@ -151,12 +149,11 @@ def sentences(parts: Sequence[Prose]) -> Iterator[Inline]:
 
 
 def _sentences(forms: Forms, problem: Problem) -> Iterator[Prose]:
-    """What is given, sentence by sentence."""
     robot = forms.robot
     if problem.normals is not None:
         yield ("the axes of the arm as they are drawn, in world coordinates.",)
         yield from _axes(problem.normals)
-        yield _drawn_bodies(forms, problem.normals)
+        yield _drawn_bodies(forms)
     elif robot.has_table:
         yield (*_table(forms), ".")
         yield _angles(robot)
@@ -208,7 +205,6 @@ def _place_in_whole(quantity: Quantity) -> tuple[int, ...]:
 
 
 def _table(forms: Forms) -> Prose:
-    """The table, and what has mass."""
     robot = forms.robot
     what = f"the table of the {machine(robot)}{_joints(robot)}"
     count = len(robot.bodies)
@@ -219,18 +215,17 @@ def _table(forms: Forms) -> Prose:
     return (f"{what} and {_COUNTS[count]}: ", *_bodies(forms))
 
 
-def _bodies(forms: Forms, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
-    told = tuple(part for body in forms.robot.bodies for part in ("; ", *_body(forms, body, drawn)))
+def _bodies(forms: Forms) -> Prose:
+    told = tuple(part for body in forms.robot.bodies for part in ("; ", *_body(forms, body)))
     return told[1:]
 
 
-def _drawn_bodies(forms: Forms, normals: Normals) -> Prose:
-    """The bodies of a drawing, their mass centres in this pose; nothing where there are none."""
+def _drawn_bodies(forms: Forms) -> Prose:
+    """The bodies of a drawing; nothing where there are none."""
     count = len(forms.robot.bodies)
     if count > MOST_BODIES:
         return (f"{opened(_PROPERTIES)} of {count} rigid bodies are given, too", *_masses(forms), ".")
-    kinds = [(q.name, q.type.value) for q in forms.robot.coordinates]
-    told = _bodies(forms, DrawnFrames.of(normals, kinds))
+    told = _bodies(forms)
     return (f"{opened(_COUNTS[count])}: ", *told, ".") if told else ()
 
 
@@ -261,7 +256,6 @@ def _joints(robot: Robot) -> str:
 
 
 def _axes(normals: Normals) -> Iterator[Prose]:
-    """The axes of a drawing and its hand."""
     drawing = normals.drawing
 
     def flat_row(vector: Matrix) -> Node:
@@ -318,10 +312,10 @@ def _position(forms: Forms, body: Body) -> Prose:
 # -- a body: its mass, the dimensions of its shape, its mass centre, its moments of inertia --------
 
 
-def _body(forms: Forms, body: Body, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
+def _body(forms: Forms, body: Body) -> Prose:
     """body 2 in link 2, a uniform slender rod of mass m₂ and length l₂ along 𝐱₂, its mass centre at 𝐨₁"""
     density, shape = body.density, body.shape
-    center = ("mass centre ", *_place(forms, body, drawn))
+    center = ("mass centre ", *_place(forms, body))
     if body.is_point and density is None:
         what: Prose = (" a point ", *_mass(forms, body), " ", *center[1:])
     elif density is not None:
@@ -333,17 +327,18 @@ def _body(forms: Forms, body: Body, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
         what = (f" a uniform {SHAPES[shape.kind]}", *_sized(forms, body, shape), ", its ", *center)
     else:
         what = (" ", *_mass(forms, body), ", its ", *center)
-    axes = () if body.is_point and density is None else _own_axes(forms, body, bool(drawn.frames))
+    axes = () if body.is_point and density is None else _own_axes(forms, body)
     return (f"{name_of(body)} in link {body.link},", *what, *axes)
 
 
-def _own_axes(forms: Forms, body: Body, is_drawn: bool) -> Prose:
+def _own_axes(forms: Forms, body: Body) -> Prose:
     """How the axes of a body lie, where they are not those of its link."""
+    is_drawn = forms.robot.questions.is_drawn
     axes, from_base = body.axes, body.axes.kind is AxesKind.BASE
     if axes.kind is AxesKind.REST:
         return say(", its axes those of the base at $𝐪 = 𝟎$")
     if lies_as_drawn(body):
-        return (", its axes those of the world",)
+        return (", its axes in this pose those of the world",)
     ground = "the world" if is_drawn else "the base"
     seen_from = ground if from_base else f"frame {body.link}"
     if axes.turns:
@@ -399,11 +394,10 @@ def _axis(forms: Forms, body: Body, name: str) -> Prose:
     return (f"its {name}-axis",)
 
 
-def _place(forms: Forms, body: Body | Place, drawn: DrawnFrames = NOT_DRAWN) -> Prose:
+def _place(forms: Forms, body: Body | Place) -> Prose:
     """A point of a link: at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁; at (x, y, 0) from 𝐨₁ along the axes of frame 1"""
-    if drawn.frames and is_given_by(body, "drawn"):
-        seen = drawn.in_world(body.link, [*map(forms.of, body.center.entries)])
-        return ("at ", flat(forms.of(value_of(forms.robot.ring, entry)) for entry in seen))
+    if isinstance(body, Body) and body.drawn:
+        return ("at ", flat(in_formulas(forms, body.drawn.at)), " in this pose")
     near, far = ends(forms.robot, body)
     if body.center_written == "tip":
         return ("at ", letters.o(far))
@@ -504,7 +498,6 @@ def _alike(moments: Iterable[tuple[str, Expr]]) -> dict[Expr, list[str]]:
 
 
 def _is_diagonal(body: Body) -> bool:
-    """Whether a tensor has no products of inertia."""
     assert body.inertia is not None
     return all(body.inertia[i, j].is_zero for i in range(3) for j in range(3) if i != j)
 

@@ -48,7 +48,6 @@ def hint_document(title: str, context: Context, stage: str) -> Document:
 
 
 def _why_absent(context: Context, stage: Stage) -> str:
-    """Why a problem has no such stage."""
     if stage.asked_for:
         return f"this problem asks for nothing of the stage {stage}"
     if not context.robot.has_table:
@@ -122,7 +121,6 @@ def _inputs(context: Context, stage: Stage) -> Iterable[tuple[Node, str]]:
 
 
 def _of_bodies(robot: Robot) -> Iterator[tuple[Node, str]]:
-    """Mass centres and tensors."""
     for body in robot.bodies:
         yield letters.rc(body), f"rc{body.name}"
         if not body.is_point:

@@ -145,7 +145,6 @@ _Told = tuple[Node | None, tuple[Node, ...], Prose, str]
 
 
 def _given(context: Context, body: Body, about: str) -> _Told:
-    """A tensor that is given by its entries."""
     assert body.inertia is not None
     if entering := _entering(context, body):
         return None, (), _left_out(context, body, entering, about), f"tensor {entering, about}"

@@ -123,7 +123,6 @@ def _four_motions(context: Context) -> Prose:
 
 
 def _kinds(robot: Robot) -> Prose:
-    """Which coordinates are angles, which lengths."""
     told: list[Prose] = []
     for turning, one, many in (
         (True, "is an angle (revolute joint)", "are angles (revolute joints)"),

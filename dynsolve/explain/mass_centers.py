@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from msgspec import Struct
 
 from dynsolve.algebra import matrix as algebra
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Prose
 from dynsolve.document.books import GEOMETRY, GIVEN, spong
 from dynsolve.document.sentences import say
 from dynsolve.errors import ReadError
 from dynsolve.explain.context import Context
+from dynsolve.explain.forms import Forms
 from dynsolve.explain.jacobian import told_frames
 from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.parameter_meanings import SHAPES
-from dynsolve.explain.step import TOLD, WORKED, Detail, Line, Part, Step
+from dynsolve.explain.step import TOLD, Detail, Line, Part, Step
 from dynsolve.explain.working.identities import product_named
 from dynsolve.explain.working.rotational import factor_of_identity
-from dynsolve.explain.writing import block_of, is_small, name_of
+from dynsolve.explain.writing import block_of, flat, is_small, name_of
 from dynsolve.notation.build import number_in_front
 from dynsolve.notation.template import formula
 from dynsolve.notation.text import read
@@ -36,6 +38,7 @@ from dynsolve.notation.tree import (
     Symbol,
     Transpose,
     Words,
+    column,
     equation,
 )
 from dynsolve.quantities import letters
@@ -68,7 +71,7 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
         result=(equation(r, factored(context, context.form(f"rc{body.name}"))),),
         notes=(not_the_origin,) if tells else (),
         detail=Detail.BRIEF,
-        normal=WORKED & ~Part.FURTHER | Part.WHY if way.values else TOLD,
+        normal=TOLD & ~Part.FURTHER if way.values and not body.drawn else TOLD,
         said=f"center {kind}" if kind else "",
         uses=way.uses,
     )
@@ -120,9 +123,23 @@ def _from(context: Context, body: Body, start: int, lever: Node, value: algebra.
     return _Way(
         formula("{R} {r} + {o}", R=letters.R(context.robot, link), r=lever, o=letters.o(start)),
         formula("{R} {r} + {o}", R=rotation, r=shown, o=origin) if is_short else None,
-        (equation(lever, shown),),
+        (equation(lever, *_seen_in_drawing(context, body), shown),),
         None if start == link else (f"H{link}", "axes"),
     )
+
+
+def _seen_in_drawing(context: Context, body: Body) -> Iterator[Node]:
+    """Rᵀ (r_c - o) in the pose of a drawing: how the centre's place in its frame follows from it."""
+    if body.drawn is not None:
+        R, r, o = letters.R(context.robot, body.link), letters.rc(body), letters.o(body.link)
+        yield formula("{R}ᵀ ({r} - {o})", R=R, r=r, o=o)
+        rows = tuple(in_formulas(context.forms, axis) for axis in body.drawn.axes)
+        yield Product((Matrix(rows), column(*in_formulas(context.forms, body.drawn.away))))
+
+
+def in_formulas(forms: Forms, vector: Iterable[Node]) -> tuple[Node, ...]:
+    """A vector of trees as it is written in formulas."""
+    return tuple(forms.of(value_of(forms.robot.ring, entry)) for entry in vector)
 
 
 def _origin(context: Context, frame: int) -> Matrix:
@@ -151,7 +168,10 @@ def _where(context: Context, body: Body) -> tuple[str, Prose]:
     """How a mass centre is given: the kind of it, and in words."""
     written, part = body.center_written, part_of_the_way(body)
     kind, words = "frame", "is given by its coordinates in frame {link}, which are constant"
-    if body.density is not None and body.density.begins:
+    if body.drawn and not body.center.is_zero:
+        kind = ""
+        words = "is drawn at {point}; its constant coordinates in frame {link} are found in that pose"
+    elif body.density is not None and body.density.begins:
         kind, words = "found", _FROM_THE_NEAR_END
     elif written == "tip":
         kind, words = written, "is at the far end of link {link}, {far}"
@@ -170,8 +190,10 @@ def _where(context: Context, body: Body) -> tuple[str, Prose]:
             words = "is on link {link}, at the given part of the way from {near} to {far}"
     near, far = map(letters.o, ends(context.robot, body))
     own = letters.o(body.link)
+    point = flat(in_formulas(context.forms, body.drawn.at if body.drawn else ()))
     given = "was found by integration," if kind == "found" else "is given"
-    return kind, say(words, link=body.link, near=near, far=far, own=own, part=part or "", given=given)
+    of_link = {"link": body.link, "near": near, "far": far, "own": own}
+    return kind, say(words, **of_link, part=part or "", given=given, point=point)
 
 
 class Place(Struct, frozen=True):

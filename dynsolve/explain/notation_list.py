@@ -164,7 +164,6 @@ def letters_beside(
 
 
 def _defined(nodes: Iterable[Node], style: Style) -> Iterator[Kind]:
-    """What stands alone on the left of an equation."""
     for node in nodes:
         for part in node.parts if isinstance(node, Row) else (node,):
             if isinstance(part, Relation):

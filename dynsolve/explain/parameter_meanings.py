@@ -23,6 +23,7 @@ from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_sqrt
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.explain.writing import agreeing, and_joined
 from dynsolve.notation.build import split_sign
 from dynsolve.notation.characters import split
@@ -396,7 +397,6 @@ def _mass(body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
 
 
 def _sizes(body: Body, shape: Shape | None) -> Iterator[tuple[AnyRole, str, Meaning]]:
-    """The dimensions of a shape."""
     for key, value in shape.dimensions if shape is not None else ():
         for name in names_in(value):
             yield Role.SHAPE, name, _dimension(body, key, value, name)
@@ -434,7 +434,10 @@ def _center(robot: Robot, body: Body) -> Iterator[tuple[AnyRole, str, Meaning]]:
     coordinates, of_near = list(_coordinates(body.center)), [] if near is None else list(_coordinates(near))
     at, start = "{coordinates} of the mass centre of body {body}, in frame {link}", -1
     link, before = body.link, robot.joints[body.link - 1].parent
-    if len({name for name, *_ in of_near}) > len({name for name, *_ in coordinates}):
+    if body.drawn:
+        drawn = Matrix.column(robot.ring, (value_of(robot.ring, entry) for entry in body.drawn.at))
+        at, coordinates = "{coordinates} of the mass centre of body {body} as drawn", [*_coordinates(drawn)]
+    elif len({name for name, *_ in of_near}) > len({name for name, *_ in coordinates}):
         coordinates, start = of_near, before
         at = "{coordinates} of the mass centre of body {body} from o{before}, in frame {link}"
     for name in dict.fromkeys(name for entry in body.center.entries for name in names_in(entry)):

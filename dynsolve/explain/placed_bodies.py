@@ -203,7 +203,6 @@ def _potential(context: Context, given: GivenModel) -> Step:
 
 
 def _energy(context: Context, name: str, title: str, why: str) -> Step:
-    """An energy that is given."""
     end, more, notes = total_energy(context, name)
     return Step(
         id=name,

@@ -133,7 +133,6 @@ class _Sharing:
         return Negative(name) if flip else name
 
     def _known(self, key: _Key) -> Node | None:
-        """± the placeholder that a sum has already."""
         if key in self.sums:
             return self.sums[key]
         opposite = self.sums.get(_opposite(key))
@@ -181,7 +180,6 @@ class _Sharing:
                     yield _canonical(shared), (a, b)
 
     def _gain(self, part: _Key, users: int) -> int:
-        """The operations that a name saves."""
         size = sum(cost(split_sign(term)[1], self._costs) for term in part) + len(part) - 1
         return (users - 1) * size - 2 if size >= SHORTEST_SUM else 0
 

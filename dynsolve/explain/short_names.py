@@ -94,7 +94,6 @@ def _worth_a_name(trees: Iterable[Node]) -> Sum | None:
 
 
 def _sums(node: Node) -> Iterator[Sum]:
-    """The sums in a tree but those of angles."""
     if isinstance(node, Sum):
         yield node
     if not isinstance(node, Function):

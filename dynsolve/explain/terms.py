@@ -343,7 +343,6 @@ def equations_of_motion(context: Context) -> Relation:
 
 
 def _meanings(context: Context) -> Prose:
-    """What the terms of the equation are."""
     robot = context.robot
     passive: Prose = ()
     if robot.actions.passive:

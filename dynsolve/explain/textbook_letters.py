@@ -219,7 +219,6 @@ def _letters(chapters: Iterable[Any]) -> str:
 
 
 def _line(row: str, values: Mapping[str, Value]) -> Line:
-    """A row of a table, its values put in."""
     left, meaning, unit = (cell.strip() for cell in f"{row}||".split("|")[:3])
     told = [part.split(": ") for part in left.split("; ")] if ": " in left else []
     signs = values.get(left.strip("{}"))

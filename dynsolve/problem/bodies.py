@@ -44,7 +44,7 @@ from dynsolve.problem.specification import (
     dimensions,
 )
 from dynsolve.problem.yaml_nodes import Faults, FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
-from dynsolve.robot.model import AxesKind, Convention, JointType
+from dynsolve.robot.model import AxesKind, Convention, DrawnPoint, JointType
 from dynsolve.robot.shapes import AXES, KINDS
 
 if TYPE_CHECKING:
@@ -54,11 +54,15 @@ if TYPE_CHECKING:
 
 
 class ParsedPlace(Struct, frozen=True):
-    """A point of a link: `kind` is tip, origin, midpoint, along (one cell), near, drawn or at (three)."""
+    """A point of a link: `kind` is tip, origin, midpoint, along (one cell), near, drawn or at (three).
+
+    Of a point of a drawing `cells` are those in the frame of its link.
+    """
 
     kind: str
     span: Span
     cells: tuple[Cell, ...] = ()
+    drawn: DrawnPoint | None = None
 
 
 def read_place(faults: Faults, node: YamlNode | None, what: str, help: str) -> ParsedPlace | None:
@@ -139,9 +143,11 @@ class DrawnFrames(Struct, frozen=True):
                 faults.error(cell.span, f"{cell.what}: the denominator is zero")
                 return None
         *axes, origin = self.frames[link]
-        away = [total([cell.tree, negated(start)]) for cell, start in zip(place.cells, origin, strict=True)]
+        at = tuple(cell.tree for cell in place.cells)
+        away = tuple(total([end, negated(start)]) for end, start in zip(at, origin, strict=True))
         pairs = zip(place.cells, axes, strict=True)
-        return replace(place, cells=tuple(self._cell(cell, _dot(axis, away)) for cell, axis in pairs))
+        cells = tuple(self._cell(cell, _dot(axis, away)) for cell, axis in pairs)
+        return replace(place, cells=cells, drawn=DrawnPoint(at, tuple(axes), away))
 
     def _cell(self, cell: Cell, tree: Node) -> Cell:
         names = tuple(name for name in cell.names if name.name not in self.slides)
@@ -156,14 +162,6 @@ class DrawnFrames(Struct, frozen=True):
             for axis in self.frames[link][:3]
         )
         return ParsedRotation(span, "base", rows=rows)
-
-    def in_world(self, link: int, place: Sequence[Node]) -> tuple[Node, ...]:
-        """A point of a link's frame in world coordinates of the pose that is drawn."""
-        *axes, origin = self.frames[link]
-        moved = [
-            (_dot(place, along), start) for along, start in zip(zip(*axes, strict=True), origin, strict=True)
-        ]
-        return tuple(total([start, along]) for along, start in moved)
 
 
 def _dot(a: Sequence[Node], b: Sequence[Node]) -> Node:

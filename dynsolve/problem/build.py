@@ -180,6 +180,7 @@ class BodyBuilder:
         tensor = tensor_value(self.values, body["inertia"], body.index) if body["inertia"] else None
         written = self._written(body)
         link, center, shape = (body[key] for key in ("link", "center", "shape"))
+        drawn = center.drawn if center else None
         center = self.places.position(center, link, "center", written) if center else None
         about = self._about(body)
         shape = self._shape(shape, body, axes) if shape and not body["inertia"] else None
@@ -206,6 +207,7 @@ class BodyBuilder:
             about=body["about"],
             about_point=about,
             center_written=written,
+            drawn=drawn,
             density=density,
         )
 

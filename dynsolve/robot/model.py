@@ -164,6 +164,17 @@ class BodyTurn(Struct, frozen=True):
     angle: Node
 
 
+class DrawnPoint(Struct, frozen=True):
+    """A point of a drawing, as trees: where it is in the world, and in its pose a link's axes and the way.
+
+    The way is that from the origin of the link's frame, in the world.
+    """
+
+    at: tuple[Node, ...]
+    axes: tuple[tuple[Node, ...], ...]
+    away: tuple[Node, ...]
+
+
 class Body(Struct, frozen=True):
     """A body that has mass, rigidly fixed to frame `link`.
 
@@ -186,6 +197,7 @@ class Body(Struct, frozen=True):
     about: str = "center"
     about_point: Matrix | None = None
     center_written: str = ""
+    drawn: DrawnPoint | None = None
     density: Density | None = None
     turns: tuple[BodyTurn, ...] = ()
 

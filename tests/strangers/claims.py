@@ -286,6 +286,7 @@ def _part_of_the_way(m: Mechanism, s: Sentence) -> bool:
 
 @says(
     "The mass centre of body # is given by its coordinates in frame #, which are constant.",
+    "The mass centre of body # is drawn at ({}, {}, {}); its constant coordinates in frame # are found ...",
     "The mass centre of body # ... from the near end of link #, {}, along the axes of frame #, ...",
 )
 def _fixed_in_frame(m: Mechanism, s: Sentence) -> bool:

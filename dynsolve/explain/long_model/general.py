@@ -74,7 +74,6 @@ def _told_once(
 
 
 def _left_out(step: Step) -> Step:
-    """The step with its formula as its result."""
     if step.formula is None:
         return step
     note = ("Written out it would be too long to be useful; the formula defines it.",)

@@ -150,7 +150,6 @@ def christoffel_step(context: Context) -> Step:
 
 
 def _identities(values: Iterable[Node]) -> str:
-    """By which identities the symbols are collected."""
     angles = {node.argument for node in walk(*values) if isinstance(node, Function)}
     kinds = {Sum: "sums", Product: "double angles"}
     found = [name for kind, name in kinds.items() if any(type(angle) is kind for angle in angles)]
@@ -205,7 +204,6 @@ def coriolis_entries(context: Context) -> Step:
 
 
 def _in_symbols(context: Context) -> tree.Matrix:
-    """C in the names of the symbols."""
     formulas = in_names_of_entries(context.robot, context.values)
     return coriolis_matrix(formulas.coordinates, formulas.c)
 
@@ -224,7 +222,6 @@ def _gravity_told(context: Context) -> tuple[Prose, Way]:
 
 
 def _terms(value: Node) -> frozenset[Node]:
-    """The terms of a sum, whatever their order."""
     sign, inner = split_sign(value)
     return frozenset(summands(inner) if sign > 0 else map(negated, summands(inner)))
 
@@ -471,7 +468,6 @@ def slopes_that_are_names(context: Context) -> Iterator[tuple[Derivative, Node]]
 
 
 def _values(context: Context, definitions: Sequence[Definition]) -> dict[Symbol, Expr]:
-    """What names are worth, exactly."""
     names = [definition.name for definition in definitions]
     trees = expanded(names_of(context).definitions, names)
     ring = context.robot.ring

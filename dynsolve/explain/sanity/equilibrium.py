@@ -46,7 +46,6 @@ def _told(why: Prose, outcome: Prose = ()) -> Step:
 
 
 def _everywhere(context: Context) -> Prose:
-    """Why g is zero in every pose."""
     ring = context.robot.ring
     heights = [context.values[f"P{body.name}"] for body in context.robot.bodies]
     why = "some mass centres rise as others fall."

@@ -326,7 +326,6 @@ def _chain(
     concluding: str | Prose | Words,
     factor: Shared | None = None,
 ) -> Way:
-    """The lines, each of them squares, as energies."""
     front = factors_of(context.form(f"Kv{body.name}"))[:2]
     is_kept = front == (letters.HALF, context.show(body.mass))
     if concluding and concluding != NUMBERS and body.mass.is_number and not is_kept:

@@ -325,12 +325,37 @@ def test_the_axes_of_bodies_are_those_of_the_drawings_world(zero: str, back: flo
 def test_the_bodies_of_a_drawing_are_given_as_they_are_drawn() -> None:
     told = text_of(ON_ITS_SIDE.replace("ZERO", "drawn").replace("GIVEN", "base"))
     given = " ".join(told[: told.index("To be found")].split())
-    assert "body 2 in link 2, of mass m₂, its mass centre at (h, b, 0), its axes those of the world" in given
+    assert (
+        "body 2 in link 2, of mass m₂, its mass centre at (h, b, 0) in this pose, its axes in this pose those "
+        "of the world"
+    ) in given
     assert "𝐇₀" not in given  # frame 0 is to be found
     first, second = "[cos(q2), -sin(q2), 0]", "[cos(q1)*sin(q2), cos(q1)*cos(q2), -sin(q1)]"
     rows = f"{{base: [{first}, {second}, [sin(q1)*sin(q2), sin(q1)*cos(q2), cos(q1)]]}}"
     told = text_of(ON_ITS_SIDE.replace("ZERO", "drawn").replace("GIVEN", rows))
     assert "seen from the world, along (c₂, c₁ s₂, s₁ s₂)" in " ".join(told.split())
+
+
+def test_the_coordinates_of_a_drawn_mass_centre_in_its_frame_follow_in_the_drawn_pose() -> None:
+    told = text_of(
+        """
+axes:
+  - {turn: a, about: [0, 1, 0], through: [0, 0, 0]}
+  - {slide: b, along: [0, 0, 1], through: [W, 0, 0]}
+tip: [W, 0, b]
+zero: drawn
+masses:
+  - {mass: m, link: 1, center: {drawn: [W/2, 0, h]}}
+  - {mass: M, link: 2, center: {drawn: [W, k, b]}}
+"""
+    )
+    words = " ".join(told.split())
+    assert "a point of mass M at (W, k, b) in this pose" in words
+    assert "h: coordinate z of the mass centre of body 1 as drawn (m)" in words
+    assert "is drawn at (W/2, 0, h); its constant coordinates in frame 1 are found in that pose." in words
+    assert "is drawn at (W, k, b); its constant coordinates in frame 2 are found in that pose." in words
+    assert "𝐫_c1¹ = (𝐑₁^w)ᵀ (𝐫_c1 - 𝐨₁) = " in words
+    assert "given by its coordinates" not in words
 
 
 def text_of(problem: str) -> str:
