@@ -278,7 +278,8 @@ class BodyBuilder:
         far = self.links.far_end(link)
         example = f"write the axis of the {shape.kind} in the body-attached frame: axis: x"
         if far is None:
-            message = f"link {link} has no far end that the {shape.kind} could lie along"
+            no = "several far ends, and none" if self.links.rows_after(link) else "no far end"
+            message = f"link {link} has {no} that the {shape.kind} could lie along"
             self.faults.error(shape.span, message, example)
             return ""
         direction = self.links.axes_in_link(axes, link).T @ (far - self.links.near_end(link))

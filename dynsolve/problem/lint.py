@@ -20,6 +20,7 @@ from dynsolve.algebra.factors import is_positive
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import Finding
 from dynsolve.notation.characters import split
 from dynsolve.problem.bodies import ParsedTensor
@@ -475,6 +476,21 @@ def kept_letter(reading: Reading) -> Iterator[Remark]:
             yield span, f"{found[0]} varies, and these words keep it", help
 
 
+def mixed_units(reading: Reading) -> Iterator[Remark]:
+    """A length and an angle added as they are, along which a spring or a damper acts: x - theta."""
+    robot, acting = reading.problem.robot, reading.parsed.acting
+    records = (one for given in acting.given.values() for one in given) if acting else ()
+    units = (robot.ring.one, -robot.ring.one)
+    for cell in (one["of"] for one in records if isinstance(one, Record) and one["of"]):
+        form = value_of(robot.ring, cell.tree)
+        alone = [q for k, q in enumerate(robot.coordinates) if robot.ring.diff(form, k) in units]
+        one_of_each = {q.type: q.name for q in alone}
+        if len(one_of_each) > 1:
+            length, angle = (one_of_each[kind] for kind in (JointType.PRISMATIC, JointType.REVOLUTE))
+            message = f"{length} is a length and {angle} an angle, and cannot be added"
+            yield cell.span, message, f"write r*{angle} for {angle}, with the radius r by which it moves"
+
+
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d+|/0*[1-9]\d*)?")
 _ENGLISH = ("a", "A", "I")
 """Letters that are words, too."""
@@ -496,5 +512,6 @@ CHECKS = (
     beside_its_link,
     left_out_moment,
     drawn_angles,
+    mixed_units,
 )
 """Every check, in no particular order."""

@@ -380,9 +380,16 @@ def coordinate_name(faults: Faults, node: YamlNode, example: str) -> str | None:
     try:
         return normalize(node.text.removesuffix("*"))
     except ReadError as error:
+        if set(node.text) & _OF_EXPRESSIONS:
+            message = f"one coordinate is wanted here, and `{node.text[:40]}` is an expression"
+            faults.error(node.span, message, example)
+            return None
         at = node.start + error.offset
         faults.error((at, at + error.length), error.message, example)
         return None
+
+
+_OF_EXPRESSIONS = frozenset("+-*/^()")
 
 
 def known_coordinate(faults: Faults, node: YamlNode, coordinates: Collection[str], help: str) -> str | None:

@@ -124,8 +124,7 @@ class PlaceBuilder(Struct, frozen=True):
         if place.kind == "near":
             point = near + given if given else None
         elif far is None:
-            message = f"link {link} has no far end: no row comes after it"
-            self.faults.error(place.span, message, _TIP_ROW)
+            self._report_no_end(self.links, place, link)
             return None
         elif place.kind == "tip":
             point = far
@@ -148,6 +147,14 @@ class PlaceBuilder(Struct, frozen=True):
         )
         self.faults.error(place.span, message, help)
         return None
+
+    def _report_no_end(self, links: Links, place: ParsedPlace, link: int) -> None:
+        message, help = f"link {link} has no far end: no row comes after it", _TIP_ROW
+        if following := [str(row.index) for row in links.rows_after(link)]:
+            rows = " and ".join((", ".join(following[:-1]), following[-1]))
+            message = f"link {link} has several far ends: rows {rows} come after it"
+            help = f"give the centre in frame {link}, [x, y, z]"
+        self.faults.error(place.span, message, help)
 
     def _report_moving(self, links: Links, place: ParsedPlace, link: int, key: str, written: str) -> None:
         shown = "tip" if place.kind == "tip" else written

@@ -281,8 +281,12 @@ class Links:
         """
         if not self.modified:
             return self.origin()
-        following = [joint for joint in self.joints if joint.parent == link]
+        following = self.rows_after(link)
         return self._step(following[0]) if len(following) == 1 else None
+
+    def rows_after(self, link: int) -> list[Joint]:
+        """The rows that start from the frame of a link."""
+        return [joint for joint in self.joints if joint.parent == link]
 
     def origin(self) -> Matrix:
         """0, 3×1."""

@@ -90,6 +90,11 @@ FAULTS = {
     ),
     "no ratio": ("motors: [{turns: q1, inertia: J, ratio: «0»}]", "is not 0", "ratio: kr1"),
     "a motor of nothing": ("motors: [{turns: «q3», inertia: J}]", "q3 is no coordinate", "turns: thm1*"),
+    "a motor of a difference": (
+        "motors: [{turns: «q2 - q1», inertia: J}]",
+        "one coordinate is wanted here, and `q2 - q1` is an expression",
+        "turns: thm1*",
+    ),
     "a passive name": ("passive: [«q3»]", "q3 is no coordinate", "passive: [q2]"),
     "sgn": ("springs: [{energy: k*«sgn»(q1)}]", "unknown function", ""),
     "friction that is asked for": ("find: [«friction»]", "no answer of this problem", ""),

@@ -326,9 +326,9 @@ def test_the_bodies_of_a_drawing_are_given_as_they_are_drawn() -> None:
     told = text_of(ON_ITS_SIDE.replace("ZERO", "drawn").replace("GIVEN", "base"))
     given = " ".join(told[: told.index("To be found")].split())
     assert (
-        "body 2 in link 2, of mass m₂, its mass centre at (h, b, 0) in this pose, its axes in this pose those "
-        "of the world"
-    ) in given
+        "body 2 in link 2, of mass m₂, its mass centre at (h, b, 0) in this pose, its axes in this " in given
+    )
+    assert "in this pose those of the world; body 3" in given
     assert "𝐇₀" not in given  # frame 0 is to be found
     first, second = "[cos(q2), -sin(q2), 0]", "[cos(q1)*sin(q2), cos(q1)*cos(q2), -sin(q1)]"
     rows = f"{{base: [{first}, {second}, [sin(q1)*sin(q2), sin(q1)*cos(q2), cos(q1)]]}}"

@@ -200,6 +200,12 @@ BODIES = {
         "no far end",
         "add a fixed row",
     ),
+    "half-way along a link that branches": (
+        "convention: modified\ndh: [{theta: q1*}, {theta: q2*, a: l}, {theta: q3*, a: l, from: 1}]\n"
+        "masses: [{mass: m, link: 1, center: «midpoint»}]",
+        "link 1 has several far ends: rows 2 and 3 come after it",
+        "give the centre in frame 1, [x, y, z]",
+    ),
     "the tip before a prismatic joint": (
         "convention: modified\n" + body("{mass: m, link: 1, center: «tip»}", RP),
         "its far end moves with the prismatic joint 2",

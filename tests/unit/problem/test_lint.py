@@ -61,6 +61,11 @@ FINDINGS = {
     "drawn-angles": "axes: [{turn: q1, about: [0, 0, 1], through: [0, 0, 0]},\n"
     "  {turn: q2, about: [0, -1, 0], through: [0, 0, h]}]\ntip: [0, 0, h + l]\nzero: «table»",
     "drawn-angles without zero": "«axes»: [{turn: q1, about: [0, 0, 1], through: [0, 0, 0]}]\ntip: [0, l, 0]",
+    "mixed-units of a spring": "dh: [{d: x*}]\nmasses: [{mass: m, link: 1}]\n"
+    "motors: [{turns: thm*, inertia: J}]\nsprings: [{stiffness: k, of: «x - thm»}]",
+    "mixed-units of a damper": "dh: [{theta: a*, a: l}, {d: x*}]\nmasses: [{mass: m, link: 2}]\n"
+    "springs: [{stiffness: k, of: x - r*a}, {stiffness: k, of: x - 0.2*a}]\n"
+    "dampers: [{damping: b, of: «a + x»}]",
     "unphysical and negative": MASS + "  - «{mass: M, link: 1, center: tip, inertia: {zz: -1}}»\n",
     "unphysical": MASS + "  - «{mass: M, link: 1, center: tip, inertia: {xx: 1, yy: 1, zz: 3}}»\n",
     "unphysical about the mass centre": MASS
