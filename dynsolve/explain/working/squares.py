@@ -222,19 +222,20 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     ring, components = context.robot.ring, [x for x in velocity.entries if not x.is_zero]
     form = context.form(f"Kv{body.name}")
     found = list(_by_rates(context, components))
-    sorted_out = total([whole for _, whole, _ in found])
-    has_many = isinstance(sorted_out, Sum)
-    tactics: list[Tactic] = [(SORTED if has_many else "Multiplied out:", sorted_out)]
-    if velocity != context.values[f"v{body.name}"]:
+    last = total([whole for _, whole, _ in found])
+    has_many = isinstance(last, Sum)
+    tactics: list[Tactic] = [(SORTED, last)] if has_many else []
+    if not has_many or velocity != context.values[f"v{body.name}"]:
         tactics.insert(0, ("The squares of its entries:", _sum_of_squares(context, components)))
+    last = tactics[-1][1]
     used = [identities(ring, bracket, context.show(value)) or () for bracket, _, value in found]
-    words = collected(ring, _energy(context, body, sorted_out), form)
+    words = collected(ring, _energy(context, body, last), form)
     if any(used):
         each = dict.fromkeys(identity for some in used for identity in some)
-        opened = "Multiplied out, with" if opened_squares(sorted_out, form) else "With"
+        opened = "Multiplied out, with" if opened_squares(last, form) else "With"
         words = say(f"{opened} {{used}}{', and collected' * has_many}:", used=said(list(each)))
     squares = sum((x.poly * x.poly for x in components), ring.zero.poly)
-    shown = {*walk(sorted_out)}
+    shown = {*walk(last)}
     cancelled = [one for one in _cancelled(context, components, squares) if shown.issuperset(factors_of(one))]
     if cancelled and words:
         words = (*with_more(words, ""), *say(" (the terms with {found} cancel):", found=listed(cancelled)))

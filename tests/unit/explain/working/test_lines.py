@@ -260,6 +260,19 @@ def test_a_turned_vector_of_two_products_is_multiplied_out() -> None:
     ]
 
 
+def test_squares_of_products_with_one_rate_are_collected_at_once() -> None:
+    tilted = """
+gravity: [0, -g, 0]
+base: Rx(60deg)
+dh: [{theta: q1*, a: r, alpha: 45deg}, {theta: q2*, d: t}]
+masses: [{mass: m, link: 2, center: origin}]
+"""
+    _, _, opened, squares, collected = lines(tilted, "Kv1")
+    assert opened == "The squares of its entries:"
+    assert squares.startswith("K_v1 = ½ m ((√2 t q̇₁/2)² + ")
+    assert collected == "Collected:"
+
+
 def test_the_rotation_along_the_axes_of_the_body_where_that_is_shorter() -> None:
     found = lines("elbow-3r", "Kw2")
     assert found[0] == "Along the body's own axes, with s₁² + c₁² = 1 (the terms with s₁ c₁ cancel):"
