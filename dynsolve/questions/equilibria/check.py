@@ -315,7 +315,7 @@ def _rises_along(robot: Robot, program: Program, at: Mapping[str, float]) -> boo
 
 
 def _rises_on_curve(robot: Robot, program: Program, at: Mapping[str, float]) -> bool:
-    """Whether the energy rises to both sides along the curve that constraints leave free (Runge and Kutta)."""
+    """Whether the energy rises to both sides along the curve that is left free (Runge and Kutta)."""
     names = [q.name for q in robot.coordinates]
 
     def moved(q: Mapping[str, float], direction: Sequence[float], step: float) -> dict[str, float]:

@@ -405,7 +405,7 @@ class Curvature(Struct, frozen=True):
 
 
 def _first_derivative(value: Expr, order: int, slope: Callable[[Expr], Expr], here: Here) -> Higher | None:
-    """The first derivative of a derivative of some order, with `slope` again and again, that is not 0 here."""
+    """The first derivative of a derivative of some order, with `slope` each time, that is not 0 here."""
     for following in range(order + 1, MOST_ORDER + 1):
         if value.is_zero or len(value) > MOST_DERIVED_TERMS:
             return None

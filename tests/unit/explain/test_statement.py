@@ -329,7 +329,7 @@ tip: [a + d2, 0, 0]
 zero: drawn
 masses: [{mass: m1, link: 1, center: {drawn: [b/2, 0, 0]}}, {mass: m2, link: 2, center: tip}]
 """
-    told = "body 1 in link 1, a point of mass m₁ at (b/2, 0, 0); body 2 in link 2, a point of mass m₂"
+    told = "body 1 in link 1, a point of mass m₁ at (b/2, 0, 0) in this pose; body 2 in link 2, a point"
     assert told in stated(solved(drawn))[0]
 
 
