@@ -11,7 +11,7 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Prose
 from dynsolve.document.books import GEOMETRY, GIVEN, spong
-from dynsolve.document.sentences import say
+from dynsolve.document.sentences import Value, say
 from dynsolve.errors import ReadError
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
@@ -192,7 +192,7 @@ def _where(context: Context, body: Body) -> tuple[str, Prose]:
     own = letters.o(body.link)
     point = flat(in_formulas(context.forms, body.drawn.at if body.drawn else ()))
     given = "was found by integration," if kind == "found" else "is given"
-    of_link = {"link": body.link, "near": near, "far": far, "own": own}
+    of_link: dict[str, Value] = {"link": body.link, "near": near, "far": far, "own": own}
     return kind, say(words, **of_link, part=part or "", given=given, point=point)
 
 

@@ -337,7 +337,7 @@ def _rises_on_curve(robot: Robot, program: Program, at: Mapping[str, float]) -> 
             four = zip(first, second, third, last, strict=True)
             q = moved(q, [(a + 2 * b + 2 * c + d) / 6 for a, b, c, d in four], step)
             ahead = along(q)
-        return sum(x * force[0] for x, force in zip(ahead, program.run(q)[0], strict=True))
+        return float(sum(x * force[0] for x, force in zip(ahead, program.run(q)[0], strict=True)))
 
     return pull(_WIDE / _CURVE_STEPS) > 0 > pull(-_WIDE / _CURVE_STEPS)
 
