@@ -318,8 +318,9 @@ def _matrices(
     """The matrices in the equation of motion, without those that are zero, or by themselves."""
     matrices = tuple(Formula(step.result[0], entries=step.entries) for step in own)
     what = f"{'With the' if model.result else 'The'} matrices of the {machine(robot)}"
-    zero = [text for name, text in _ZERO.items() if model.result and _is_zero(forms(name))]
-    yield Text((*listed([(what, Reference(_MATRICES, ", ")), *zero]), ":"))
+    zero = {name: text for name, text in _ZERO.items() if model.result and _is_zero(forms(name))}
+    others = Reference(tuple(name for name in _MATRICES if name not in zero), ", ")
+    yield Text((*listed([(what, others), *zero.values()]), ":"))
     if model.result:
         yield from (Formula(result, entries=model.entries, otherwise=matrices) for result in model.result)
     else:

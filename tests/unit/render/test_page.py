@@ -111,7 +111,7 @@ def test_both_ways_and_the_summary_say_which_equations_they_speak_of() -> None:
     number, text = numbered(page), markdown.render(page)
     for one, other in (("D", "D_sum"), ("Cqd", "Cqd-rows"), ("Cqd-2", "g")):
         assert f" in ({number[one]}) and ({number[other]})" in text
-    assert f"With the matrices of the arm, ({number['D']}), ({number['C']}) and ({number['g']}):" in text
+    assert f"With the matrices of the arm, ({number['D']}) and ({number['C']}) and $" in text
     assert f"Row by row, ({number['tau1']}) and ({number['tau2']}):" in text
 
 
