@@ -72,6 +72,9 @@ def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.ndarray) and value.size == 1 else value
 
 
+ZERO = Value(0.0, 0.0)
+
+
 @dataclass
 class Point:
     """What symbols and letters are at a random state; those that are `free` are nothing there.
@@ -345,10 +348,10 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
             continue
         count[1] += 1
         letter, *_, value = relation.parts
-        if letter == tree.ZERO and point.passive and _has_accelerations(value):  # a row without a drive
+        if letter == tree.ZERO and point.passive:  # a row without a drive
             found = point.value(value)
             count[0] += 1
-            if not any(found.close_to(force()) for force in point.passive):
+            if not any(found.close_to(one) for one in (ZERO, *(force() for force in point.passive))):
                 yield Untrue(where, letter, value, f"{_plain(found.value)} is no passive force")
             continue
         if letter in own and not any(isinstance(part, tree.Letter) for part in walk(value)):
@@ -372,10 +375,6 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
         for (a, x), (b, y) in pairwise(members):
             if not x.close_to(y):
                 yield Untrue(where, a, b, f"{_plain(x.value)} and {_plain(y.value)}")
-
-
-def _has_accelerations(node: Node) -> bool:
-    return any(isinstance(part, tree.Symbol) and part.dots == 2 for part in walk(node))
 
 
 def _is_of_step(node: Node) -> bool:
