@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.ring import Expr
 from dynsolve.draw import paths
+from dynsolve.draw.labels import written
 from dynsolve.draw.poses import MARK, Notes, Pose, seen_end_on
 from dynsolve.draw.skeleton import DrawnFrame, RobotNumbers, finite
 from dynsolve.draw.vectors import NEAR, Vector, add, applied, dot, length, moved, scale, unit
@@ -91,5 +91,5 @@ def _name(robot: Robot, load: Load, number: int) -> Node:
     """F, where that alone is the force; else 𝐅₁."""
     entries = [entry for entry in load.force.entries if not entry.is_zero]
     if len(entries) == 1:
-        return split_sign(Compactor(robot.ring, decimal=True).form(entries[0]))[1]
+        return split_sign(written(robot)(entries[0]))[1]
     return letters.bold("F", Number(number))

@@ -18,9 +18,18 @@ from random import Random
 
 from msgspec import Struct
 
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.ring import Expr
 from dynsolve.draw.paths import LabelLine, Path, flattened
 from dynsolve.draw.vectors import Point, from_to, moved, segment_distance, toward
 from dynsolve.notation.tree import Node
+from dynsolve.robot.model import Robot
+
+
+def written(robot: Robot) -> Callable[[Expr], Node]:
+    """How a label has a value: with the decimals that the file has, 0.35, and l/2 as in the text."""
+    return Compactor(robot.ring, decimal=robot.has_decimals, typed=robot.decimals).form
+
 
 # The grid of the places on paper that are occupied, so that labels find free ones
 

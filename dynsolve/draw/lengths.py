@@ -14,9 +14,8 @@ from itertools import permutations, product
 from msgspec import Struct
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.draw import paths
-from dynsolve.draw.labels import Box, Label, Wanted, place
+from dynsolve.draw.labels import Box, Label, Wanted, place, written
 from dynsolve.draw.paths import Path
 from dynsolve.draw.poses import MARK, Notes, Pose, axis_arrow, seen_end_on
 from dynsolve.draw.skeleton import RobotNumbers, opposite, unsigned
@@ -266,10 +265,10 @@ def world_frame(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -
 
 def moves(robot: Robot, numbers: RobotNumbers) -> list[Length]:
     """How far frame 0 is moved along each axis of the world."""
-    compactor = Compactor(robot.ring, decimal=True)
+    form = written(robot)
     corners = _corners(numbers)
     return [
-        Length(start, end, unsigned(compactor.form(entry)))
+        Length(start, end, unsigned(form(entry)))
         for start, end, entry in zip(corners, corners[1:], robot.base_position.entries, strict=False)
         if start != end
     ]

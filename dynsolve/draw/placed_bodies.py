@@ -15,11 +15,10 @@ from itertools import combinations
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.mechanism import orientation
 from dynsolve.draw import paths
-from dynsolve.draw.labels import Label, Taken, place
+from dynsolve.draw.labels import Label, Taken, place, written
 from dynsolve.draw.lengths import tilt
 from dynsolve.draw.paths import Path
 from dynsolve.draw.placed_pose import Kind, Piece, Place, PlacedPose, Turning, placed_pose
@@ -157,7 +156,7 @@ def _length(piece: Piece, pose: PlacedPose, notes: Notes) -> None:
     """The name of a length: beside its rod, or on an arrow beside its line."""
     if piece.length is None:
         return
-    name = Compactor(pose.robot.ring, decimal=True).form(piece.length)
+    name = written(pose.robot)(piece.length)
     a, b = pose.point(piece.start), pose.point(piece.end)
     reach = math.dist(a, b)
     if reach < NEAR:
@@ -250,13 +249,13 @@ def _axes(body: Body, pose: PlacedPose) -> Rotation | None:
 def _name(body: Body, pose: PlacedPose, notes: Notes) -> None:
     """The mass of a body, or what moment of inertia it has instead."""
     at = pose.view.point(_center(body, pose))
-    compactor = Compactor(pose.robot.ring, decimal=True)
+    form = written(pose.robot)
     node: Node
     if not body.mass.is_zero:
-        node = compactor.form(body.mass)
+        node = form(body.mass)
     else:
         moments = [] if body.inertia is None else [x for x in body.inertia.entries if not x.is_zero]
-        node = compactor.form(moments[0]) if len(moments) == 1 else Symbol(f"body {body.name}")
+        node = form(moments[0]) if len(moments) == 1 else Symbol(f"body {body.name}")
     rolls = pose.rolls(body)
     radius = _BALL if _axes(body, pose) is None else _HALF
     radius = radius if rolls is None else pose.view.size * _radius(*rolls)
@@ -317,16 +316,16 @@ _CUP, _CUP_HALF = 16.0, 6.0
 
 def _springs(pose: PlacedPose, turning: Sequence[Turning], notes: Notes) -> list[str]:
     """Every spring with its stiffness and every damper with its damping; what is to be said of them."""
-    actions, compactor = pose.robot.actions, Compactor(pose.robot.ring, decimal=True)
+    actions, form = pose.robot.actions, written(pose.robot)
     said = []
     for spring in actions.stored:
         along = spring.along
-        drawn = along is not None and _draw(along[0], compactor.form(along[1]), pose, turning, notes)
+        drawn = along is not None and _draw(along[0], form(along[1]), pose, turning, notes)
         said.append(SPRINGS if drawn else OTHER_SPRINGS)
     for of, damping in (act.along for act in actions.resisting if act.along):
         ends = _ends(of, pose)
         if ends is not None:
-            _dashpot(*_apart(*ends, pose, notes), compactor.form(damping), notes)
+            _dashpot(*_apart(*ends, pose, notes), form(damping), notes)
         said.append(DAMPERS if ends else OTHER_DAMPERS)
     return list(dict.fromkeys(said))
 

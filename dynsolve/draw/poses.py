@@ -18,10 +18,9 @@ from itertools import combinations, pairwise
 
 from msgspec import Struct, field
 
-from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.ring import Expr
 from dynsolve.draw import paths
-from dynsolve.draw.labels import Taken, Wanted
+from dynsolve.draw.labels import Taken, Wanted, written
 from dynsolve.draw.mass_centers import DrawnBody
 from dynsolve.draw.parts import RADIUS, TUBE, JointBody, Parts
 from dynsolve.draw.paths import Path, typeset
@@ -446,7 +445,7 @@ def _rate(of: Expr, coordinate: str, numbers: RobotNumbers) -> float:
 def springs(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None:
     """Every such spring with its stiffness."""
     for part, stiffness in joint_springs(robot, numbers, pose):
-        name = Compactor(robot.ring, decimal=True).form(stiffness)
+        name = written(robot)(stiffness)
         if part.type is JointType.REVOLUTE:
             draw_spring(spiral(part.center, part.axis, pose.view), name, notes)
         else:

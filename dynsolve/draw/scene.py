@@ -15,13 +15,12 @@ from fractions import Fraction
 from msgspec import Struct
 from msgspec.structs import astuple
 
-from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.derivation.rules import derive
 from dynsolve.draw import paths, poses
 from dynsolve.draw.forces import FORCES, MOMENTS, TURNING, drawn_forces, forces, is_turning
 from dynsolve.draw.joint_angles import has_rings, is_right, joint_angles, names_of_angles, offsets, parallels
-from dynsolve.draw.labels import Box, Label, Taken, bounds, place
+from dynsolve.draw.labels import Box, Label, Taken, bounds, place, written
 from dynsolve.draw.lengths import WORLD, Length, dimensions, has_world, moves, row_lengths, tilt, world_frame
 from dynsolve.draw.mass_centers import DrawnBody, Form
 from dynsolve.draw.paths import Path
@@ -71,7 +70,7 @@ _FACING = 0.5
 def thicknesses(robot: Robot, pose: Pose, notes: Notes) -> None:
     """The sides of every body across its length, each letter once."""
     shown: set[Node] = set()
-    write = Compactor(robot.ring, decimal=True).form
+    write = written(robot)
     for body in pose.bodies:
         for axis, side in body.sides:
             name, ways = write(side), list(_ways(body, axis, pose.view))

@@ -71,7 +71,8 @@ class Inequalities:
         named = (*self.robot.questions.reached, *ring.plan.signed, *leading_names(self.robot))
         leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
         parallel = tuple(parallel_coordinates(self.robot))
-        return _compactor(ring, tuple(leading), parallel, decimal=self.robot.has_decimals)
+        robot = self.robot
+        return _compactor(ring, tuple(leading), parallel, decimal=robot.has_decimals, typed=robot.decimals)
 
 
 def _squared(value: Expr) -> list[Expr]:

@@ -103,6 +103,11 @@ TrigPart = tuple[Monomial, Terms]
 """A product of sines and cosines, and what stands beside it."""
 
 
+def _is_negative(sum_of_two: tuple[TrigPart, TrigPart, TrigPart]) -> bool:
+    *_, (_, terms) = sum_of_two
+    return next(iter(terms.values())) < 0
+
+
 class _Products(dict[int, int]):
     """For the number of each part of a monomial that of its product with a factor."""
 
@@ -333,13 +338,13 @@ class RingAtoms:
 
     def with_roots_added(self, parts: Sequence[TrigPart]) -> Sequence[TrigPart]:
         """(√3 sin θ + cos θ)/2 as sin(θ + 30°), where 30° was written."""
-        while found := self._sum_by_roots(parts):
+        while found := min(self._sums_by_roots(parts), key=_is_negative, default=None):
             first, second, whole = found
             parts = [whole if part == first else part for part in parts if part != second]
         return parts
 
-    def _sum_by_roots(self, parts: Sequence[TrigPart]) -> tuple[TrigPart, TrigPart, TrigPart] | None:
-        """Two parts, and what they are together."""
+    def _sums_by_roots(self, parts: Sequence[TrigPart]) -> Iterator[tuple[TrigPart, TrigPart, TrigPart]]:
+        """Two parts, and what they are together: cos θ - sin θ is √2 cos(θ + 45°), and -√2 sin(θ - 45°)."""
         beside = dict(parts)
         for (mono, part), (degrees, root) in product(parts, self._by_roots):
             half = self._divided(part, root)
@@ -361,8 +366,7 @@ class RingAtoms:
                 sign, atom = self._angle_atom(name, angle, self.table.ranks[a][1][:3])
                 whole = multiply(rest, ((atom, 1),)), {e: 2 * sign * f for e, f in size.items()}
                 if whole[0] not in beside:
-                    return (mono, part), (other, beside[other]), whole
-        return None
+                    yield (mono, part), (other, beside[other]), whole
 
     def _divided(self, terms: Terms, root: int) -> Terms:
         """The terms without a root that all have; nothing where one has it not."""

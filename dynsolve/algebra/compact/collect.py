@@ -13,7 +13,7 @@ The factor that all entries of a matrix share: (1/12) m l² in front of the tens
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from fractions import Fraction
 from math import lcm
 
@@ -418,6 +418,20 @@ class Collector:
         """A sum as a polynomial."""
         return {mono: f for f, mono in map(self.decompose, summands(node))}
 
+    def direction(self, nodes: Sequence[Node]) -> list[Node]:
+        """Components without what numbers and roots of these all share: (c₁, s₁) of (√2 c₁, √2 s₁)."""
+        parts = [self.decompose(node) for node in nodes]
+        filled = [(factor, mono) for factor, mono in parts if factor]
+        size = whole_content([factor for factor, _ in filled])
+        shared = common([mono for _, mono in filled])
+        roots = tuple(part for part in shared if self.atoms.ranks[part[0]][0] is Rank.ROOT)
+        if size == 1 and not roots:
+            return [*nodes]
+        return [
+            self.product(exact(factor, size), divide(mono, roots), ()) if factor else ZERO
+            for factor, mono in parts
+        ]
+
     def sum_of(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
         """Σ factor · monomial · tree, with what the products share drawn out."""
         return self.form(self.added(products))
@@ -625,5 +639,9 @@ def matrix_factor(collector: Collector, matrix: Matrix) -> tuple[Node, Matrix] |
     }
     if any(isinstance(part, Quotient) for entry in rest.values() for part in walk(entry)):
         return None
-    front = number_in_front(collector.product(number, shared, ()))
+    whole = collector.product(number, shared, ())
+    front = number_in_front(whole)
+    match front:  # a fraction stays one among decimals: ½ b
+        case Product((Number(p, q), *others)) if isinstance(whole, Quotient):
+            front = Product((Quotient(Number(p), Number(q)), *others))
     return front, Matrix(tuple(tuple(rest.get(entry, entry) for entry in row) for row in matrix.rows))

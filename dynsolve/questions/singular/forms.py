@@ -37,4 +37,5 @@ class SingularForms(SetForms):
         return tuple(tuple(map(self._column, loss.here)) for loss in losses)
 
     def _column(self, direction: Direction) -> Matrix:
-        return column(*map(self.compactor(direction[0].ring).form, direction))
+        compactor = self.compactor(direction[0].ring)
+        return column(*compactor.collector.direction([*map(compactor.form, direction)]))

@@ -172,6 +172,12 @@ def test_a_part_of_a_symbol_is_labelled_as_that_part() -> None:
     assert "l₂/2" in shown and "l₂" not in shown
 
 
+def test_a_length_is_labelled_as_the_text_has_it() -> None:
+    """Half of l beside a decimal that the file has."""
+    text = "dh: [{theta: q1*, d: 0.35, a: l/2}]\nmasses: [{mass: m, link: 1}]\nfriction: {q1: 0.5}\n"
+    assert sorted(names(drawn_text(text), "length")) == ["0.35", "l/2"]
+
+
 def test_a_mass_centre_that_is_given_by_a_number_has_its_distance() -> None:
     """`near: [0.15, 0, 0]`; what is half-way, or at the end, needs none."""
     shown = names(drawn(next(path for path in LIBRARY if path.stem == "numeric-2r")), "length")

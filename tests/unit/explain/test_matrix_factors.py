@@ -45,3 +45,11 @@ def test_every_line_of_a_turned_tensor_has_its_factor_in_front() -> None:
     step = next(step for step in solution.explain(["inertia"]) if step.id == "I1")
     lines = [to_unicode(last(line), solution.style) for line in (*step.working, *step.result)]
     assert len(lines) == 3 and all(line.startswith("(1/12) m₁ [[") for line in lines)
+
+
+def test_a_fraction_in_front_stays_one_among_decimals() -> None:
+    arm = "dh: [{theta: q1*, a: b}]\nmasses: [{mass: m, link: 1, center: midpoint}]\nfriction: {q1: 0.3}\n"
+    solution = solved(f"gravity: [0, -g, 0]\n{arm}find: [D]\n")
+    shown = factored(solution._context, solution.forms("Jv1"))
+    assert to_unicode(factored(solution._context, solution.forms("rc1")), solution.style).startswith("½ b [")
+    assert "0.5" not in to_unicode(shown, solution.style)

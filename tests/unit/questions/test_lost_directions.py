@@ -112,6 +112,14 @@ find: [lost, nullspace]
     assert dynsolve.solve(wide).to_json()["results"]["nullspace"] == [["2", "-5"]]
 
 
+@pytest.mark.parametrize("offset", ["30deg", "45deg", "60deg"])
+def test_a_direction_has_no_number_that_all_components_share(offset: str) -> None:
+    arm = f"gravity: none\ndh: [{{theta: q1* + {offset}, a: b}}, {{theta: q2*, a: c}}]\nfind: [singular]\n"
+    (step,) = (step for step in dynsolve.solve(arm).steps if step.id == "singular_1")
+    degrees = offset.removesuffix("deg")
+    assert to_unicode(step.result[0]) == f"w = [[cos(q₁ + {degrees}°)], [sin(q₁ + {degrees}°)]]"
+
+
 def test_a_minor_is_called_by_its_columns() -> None:
     """By hand: columns 2 and 3 of a slide along x and a turn of the end, l₃ sin q₃ apart."""
     text = """
