@@ -72,9 +72,6 @@ def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.ndarray) and value.size == 1 else value
 
 
-ZERO = Value(0.0, 0.0)
-
-
 @dataclass
 class Point:
     """What symbols and letters are at a random state; those that are `free` are nothing there.
@@ -348,10 +345,10 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
             continue
         count[1] += 1
         letter, *_, value = relation.parts
-        if letter == tree.ZERO and point.passive:  # a row without a drive
-            found = point.value(value)
+        if point.passive and (letter == tree.ZERO or _is_from_outside(letter)):  # a row without a drive
+            found, forces = point.value(value), [force() for force in point.passive]
             count[0] += 1
-            if not any(found.close_to(one) for one in (ZERO, *(force() for force in point.passive))):
+            if not any(found.close_to(one) for one in (point.value(letter), *forces)):
                 yield Untrue(where, letter, value, f"{_plain(found.value)} is no passive force")
             continue
         if letter in own and not any(isinstance(part, tree.Letter) for part in walk(value)):
@@ -375,6 +372,13 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
         for (a, x), (b, y) in pairwise(members):
             if not x.close_to(y):
                 yield Untrue(where, a, b, f"{_plain(x.value)} and {_plain(y.value)}")
+
+
+def _is_from_outside(node: Node) -> bool:
+    """Whether a letter is an entry of 𝐐, which a row without a drive has alone on its left."""
+    return (
+        isinstance(node, tree.Letter) and (node.base, node.style) == ("Q", "italic") and node.sub is not None
+    )
 
 
 def _is_of_step(node: Node) -> bool:
