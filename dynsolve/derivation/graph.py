@@ -22,9 +22,18 @@ class Rule(Struct, frozen=True):
 
 
 class Skipped(Struct, frozen=True):
-    """What stands for a value whose work goes over a bound, and why."""
+    """What stands for a value whose work goes over a bound, and why.
+
+    `value` is there where it is known, and only too long to be read: answers are compared with it.
+    """
 
     why: str
+    value: Any = None
+
+
+def known(value: Any) -> Any:
+    """A value, though it is too long to be read."""
+    return value.value if isinstance(value, Skipped) and value.value is not None else value
 
 
 class Derivation(Mapping[str, Any]):

@@ -6,17 +6,21 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from msgspec import Struct
 
-from dynsolve.derivation.graph import Derivation
+from dynsolve.algebra.compact.proof import plain_form
+from dynsolve.algebra.fraction import RationalExpr
+from dynsolve.algebra.linear_systems import fraction_of
+from dynsolve.algebra.ring import Expr
+from dynsolve.derivation.graph import Derivation, known
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Matrix, Node, Quotient
 from dynsolve.robot.model import Robot
 
 
 class Held(Struct, frozen=True):
     """The results to be held: `wanted` are their names, and those that they are derived from.
 
-    They are compared at `states` random states.
+    They are compared at `states` random states; those that are too long to be printed as they are derived.
     """
 
     robot: Robot
@@ -28,8 +32,19 @@ class Held(Struct, frozen=True):
     def hold(self, verify: Callable[[Robot, Mapping[str, Node], int], object], names: Iterable[str]) -> None:
         """Compare printed forms, by name; those that the robot has not are passed over."""
         verify(
-            self.robot, {name: self.forms(name) for name in names if name in self.values.rules}, self.states
+            self.robot, {name: self._form(name) for name in names if name in self.values.rules}, self.states
         )
+
+    def _form(self, name: str) -> Node:
+        value = known(self.values[name])
+        if value is self.values[name]:
+            return self.forms(name)
+        return Matrix(tuple(tuple(map(_plain, row)) for row in value.rows))
+
+
+def _plain(entry: Expr | RationalExpr) -> Node:
+    one = fraction_of(entry)
+    return Quotient(plain_form(one.numerator), plain_form(one.denominator))
 
 
 Rows = Sequence[Sequence[float]]

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from dynsolve.algebra.matrix import needed_roots
-from dynsolve.derivation.graph import Derivation, Skipped
+from dynsolve.derivation.graph import Derivation, Skipped, known
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import AlgebraError, ProblemError, VerificationError, warn_left_out
 from dynsolve.explain.forms import Forms
@@ -33,7 +33,7 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
 
     Where a check fails, what is asked of that question is left out, with a warning; all others stand.
     """
-    left_out = {name for name, _ in skipped(robot, values)}
+    left_out = {name for name, _ in skipped(robot, values) if isinstance(known(values.get(name)), Skipped)}
     held = Held(robot, values, forms, values.leading_to(robot.questions.asked) - left_out, states)
     asked = asked_stages(robot.questions)
     wrong: dict[str, Skipped] = {}

@@ -201,7 +201,7 @@ _ACCELERATIONS = ("qdd", "qdd_forward")
 """Two results of one letter."""
 
 
-MOST_TWICE = 2000
+MOST_TWICE = 1000
 """A result with more parts, some twenty lines, is not written in the summary again."""
 
 
@@ -481,11 +481,13 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
         Formula(result, entries=step.entries if len(step.result) == 1 else ())
         for step in steps
         if step.id == name or step.id not in _ACCELERATIONS
-        for result in step.result
+        for result in step.result or (step.formula,)
         if isinstance(result, Relation) and result.parts[0] == letter
     ]
     yield from by_letter[-1:]
     step = next((step for step in steps if name in (step.id, *step.also)), None)
+    if by_letter and step is not None and not step.result:  # it stops at its formula
+        yield Text(step.outcome)
     if by_letter or step is None:
         return
     called = quantity.family.called_of(robot).replace(" {}", "") if quantity is not None else step.title

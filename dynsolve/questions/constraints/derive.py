@@ -36,9 +36,11 @@ from dynsolve.derivation.allowed import NOT_DETERMINED, NOT_SHOWN, where_allowed
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.link_frame import velocities
 from dynsolve.questions.forward_dynamics.derive import (
+    TOO_LARGE,
     Reduced,
     acting_forces,
     acting_names,
+    if_readable,
     outside_names,
     reduced,
 )
@@ -53,8 +55,6 @@ MOST_PRODUCTS = 200_000
 FREE = "what the constraints leave free moves no mass, so that the accelerations are not determined"
 
 DEPENDENT = "one constraint follows from the others, so that the multipliers are not determined"
-
-TOO_LARGE = "multiplied out they are too large to be read"
 
 
 def holonomic(robot: Robot) -> tuple[Constraint, ...]:
@@ -97,7 +97,7 @@ def multipliers(
     if scale.is_zero or determinant(square).is_zero:
         return _together(A, D, vstack(acting, -along))
     wanted = through @ acting + along.scale(scale)
-    return quotient(-(adjugate(square) @ wanted), determinant(square))
+    return if_readable(quotient(-(adjugate(square) @ wanted), determinant(square)))
 
 
 def _together(A: Matrix, D: Matrix, right: Matrix) -> Matrix | FractionMatrix | Skipped:
@@ -108,7 +108,7 @@ def _together(A: Matrix, D: Matrix, right: Matrix) -> Matrix | FractionMatrix | 
     found = inverse_times(both, right)
     if found is None:
         return Skipped(FREE)
-    return tidy(D.ring, (map(fraction_of, row) for row in found.rows[len(D.rows) :]))
+    return if_readable(tidy(D.ring, (map(fraction_of, row) for row in found.rows[len(D.rows) :])))
 
 
 def bordered(A: Matrix, D: Matrix) -> Matrix:

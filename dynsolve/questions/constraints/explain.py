@@ -46,7 +46,13 @@ from dynsolve.notation.tree import (
 from dynsolve.quantities import letters
 from dynsolve.questions.constraints.derive import bordered, holonomic
 from dynsolve.questions.forward_dynamics.derive import Reduced, acting_names
-from dynsolve.questions.forward_dynamics.explain import and_cancelled, inverse_of_inertia
+from dynsolve.questions.forward_dynamics.explain import (
+    and_cancelled,
+    as_far_as_read,
+    inverse_of_inertia,
+    is_not_derived,
+    is_too_large,
+)
 from dynsolve.questions.set_forms import SetForms, without_number
 from dynsolve.questions.task.explain import with_letters
 
@@ -79,7 +85,7 @@ def steps(context: Context) -> Iterator[Step]:
             detail=Detail.BRIEF,
         )
     found = context.values["lambda"] if "lambda" in wanted else None
-    if isinstance(found, Skipped):
+    if found is not None and is_not_derived(found):
         yield not_derived("lambda", "The multipliers", found.why)
     elif found is not None:
         yield _multipliers(context)
@@ -129,8 +135,11 @@ def _matrix(context: Context) -> Step:
 
 def _multipliers(context: Context) -> Step:
     acting = acting_side(context)
-    is_regular = not determinant(context.values["D"]).is_zero
-    lines = (*_rates(context), *(_products(context) if is_regular else _both(context)))
+    found = context.values["lambda"]
+    is_regular = is_too_large(found) or not determinant(context.values["D"]).is_zero
+    lines = tuple(_rates(context))
+    if not is_too_large(found):
+        lines = (*lines, *(_products(context) if is_regular else _both(context)))
     value = mapped(scalar(context.form("lambda")), with_force_letters(context.robot))
     equations = equations_of_motion(context)
     solved = say(
@@ -142,7 +151,7 @@ def _multipliers(context: Context) -> Step:
     )
     explicit = formula("𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹ {acting} + 𝐀̇_c 𝐪̇)", acting=acting)
     together = formula("[𝐃, -𝐀_cᵀ; 𝐀_c, 𝟎] [𝐪̈; 𝛌] = [{acting}; -𝐀̇_c 𝐪̇]", acting=acting)
-    concluding = f"Put in{and_cancelled(context.values['lambda'])}:"
+    concluding = f"Put in{and_cancelled(found)}:"
     if not is_regular:
         concluding = "Solved for the multipliers:"
     if not is_regular and not sign_of(context, _determinant_of_both(context)):
@@ -152,7 +161,7 @@ def _multipliers(context: Context) -> Step:
             "$𝐃$ has no inverse: its determinant is 0. So these equations and {kept} are solved together.",
             kept=_KEPT,
         )
-    return Step(
+    step = Step(
         id="lambda",
         title="The multipliers",
         why=say(
@@ -169,6 +178,7 @@ def _multipliers(context: Context) -> Step:
         result=(equation(letters.LAMBDA, value),),
         detail=Detail.BRIEF,
     )
+    return as_far_as_read(step, found)
 
 
 def _both(context: Context) -> Iterator[Line]:

@@ -23,7 +23,7 @@ from functools import partial
 
 from msgspec import Struct
 
-from dynsolve.algebra.linear_systems import FractionMatrix, inverse_times
+from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of, inverse_times
 from dynsolve.algebra.lowest_terms import without_shared
 from dynsolve.algebra.matrix import Matrix, work
 from dynsolve.algebra.ring import Expr
@@ -34,6 +34,9 @@ from dynsolve.robot.questions import FOR_EVERY_Q
 
 MOST_PRODUCTS = 50_000
 """Accelerations that may come to more products of terms are not multiplied out: nobody could read them."""
+
+MOST_TERMS = 400
+"""Results, or equations together, of more terms are not written out: collected they fill a page."""
 
 TOO_LARGE = "multiplied out they are too large to be read"
 
@@ -80,13 +83,18 @@ def accelerations(robot: Robot, D: Matrix, *forces: Matrix) -> Matrix | Fraction
     acting = acting_forces(robot, *forces)
     if work(D) * max(1, max(map(len, acting.entries))) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
-    return inverse_times(D, acting) or Skipped(SINGULAR)
+    found = inverse_times(D, acting)
+    return Skipped(SINGULAR) if found is None else if_readable(found)
+
+
+def if_readable(value: Matrix | FractionMatrix) -> Matrix | FractionMatrix | Skipped:
+    """A value that is not too long to be read."""
+    fractions = list(map(fraction_of, value.entries))
+    terms = sum(len(one.numerator) + len(one.denominator) for one in fractions)
+    return Skipped(TOO_LARGE, value) if terms > MOST_TERMS else value
 
 
 # The equations of motion of a constrained mechanism without the multipliers
-
-MOST_TERMS = 400
-"""Equations with more terms together are not multiplied out."""
 
 
 class Reduced(Struct, frozen=True):

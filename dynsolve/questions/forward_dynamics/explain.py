@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, fraction_of, inverse_times, is_diagonal
 from dynsolve.algebra.lowest_terms import is_decided
@@ -24,6 +26,7 @@ from dynsolve.explain.writing import is_small, scalar
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Number, Quotient, Symbol, equation, mapped
 from dynsolve.quantities import letters
+from dynsolve.questions.forward_dynamics.derive import TOO_LARGE
 
 _DET = formula("det 𝐃")
 
@@ -33,14 +36,14 @@ def steps(context: Context) -> Iterator[Step]:
     if "qdd_forward" not in context.wanted:
         return
     value = context.values["qdd_forward"]
-    if isinstance(value, Skipped):
+    if is_not_derived(value):
         yield not_derived("qdd_forward", "The accelerations", value.why)
         return
-    lines = inverse_of_inertia(context)
+    lines = () if is_too_large(value) else inverse_of_inertia(context)
     accelerations = tuple((Symbol(q.name, 2),) for q in context.robot.coordinates)
     shown = mapped(context.form("qdd_forward"), with_force_letters(context.robot))
     letter = accelerations[0][0] if len(accelerations) == 1 else letters.QDD
-    yield Step(
+    step = Step(
         id="qdd_forward",
         title="The accelerations that the forces make",
         why=say(
@@ -59,10 +62,31 @@ def steps(context: Context) -> Iterator[Step]:
         entries=accelerations,
         detail=Detail.BRIEF,
     )
+    yield as_far_as_read(step, value)
 
 
-def and_cancelled(value: Matrix | FractionMatrix) -> str:
+def is_not_derived(value: Matrix | FractionMatrix | Skipped) -> bool:
+    """Whether there is no result, and not one that is too long to be read."""
+    return isinstance(value, Skipped) and value.why != TOO_LARGE
+
+
+def is_too_large(value: Matrix | FractionMatrix | Skipped) -> bool:
+    """Whether a result was not even multiplied out."""
+    return isinstance(value, Skipped) and value.value is None
+
+
+def as_far_as_read(step: Step, value: Matrix | FractionMatrix | Skipped) -> Step:
+    """A step that stops at its formula where its result is too long to be read."""
+    if not isinstance(value, Skipped):
+        return step
+    told = "Multiplied out this is too long to be read."
+    return replace(step, why=(*step.why, " ", told), concluding=(), result=(), entries=(), outcome=(told,))
+
+
+def and_cancelled(value: Matrix | FractionMatrix | Skipped) -> str:
     """That nothing is left above and below, where that is known."""
+    if isinstance(value, Skipped):
+        return ""
     entries = [fraction_of(entry) for entry in value.entries]
     fractions = [(one.numerator, one.divisor) for one in entries if one.divisor is not None]
     return ", and cancelled" * all(is_decided(above, below) for above, below in fractions)

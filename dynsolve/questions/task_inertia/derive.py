@@ -20,8 +20,9 @@ from dynsolve.algebra.linear_systems import FractionMatrix, part, quotient
 from dynsolve.algebra.matrix import Matrix, determinant, work
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Rule, Skipped
-from dynsolve.questions.equilibria.linearization import MOST_PRODUCTS, TOO_LARGE
+from dynsolve.questions.equilibria.linearization import MOST_PRODUCTS
 from dynsolve.questions.forward_dynamics.derive import SINGULAR as SINGULAR_INERTIA
+from dynsolve.questions.forward_dynamics.derive import TOO_LARGE, if_readable
 from dynsolve.robot.model import Robot
 
 _Indices = tuple[int, ...]
@@ -59,7 +60,7 @@ def task_inertia(jacobian: Matrix, D: Matrix) -> Matrix | FractionMatrix | Skipp
         value = _sum(jacobian, D, tuple(k for k in every if k != j), tuple(k for k in every if k != i))
         return value if (i + j) % 2 == 0 else -value
 
-    return quotient(Matrix.of(D.ring, ([entry(i, j) for j in every] for i in every)), size)
+    return if_readable(quotient(Matrix.of(D.ring, ([entry(i, j) for j in every] for i in every)), size))
 
 
 def _sum(jacobian: Matrix, D: Matrix, A: _Indices, B: _Indices) -> Expr:

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from dynsolve.algebra.linear_systems import adjugate, quotient
 from dynsolve.algebra.matrix import determinant
-from dynsolve.derivation.graph import Skipped
 from dynsolve.document.books import LYNCH_PARK
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
@@ -15,6 +14,7 @@ from dynsolve.explain.writing import as_row, is_small, scalar
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Negative, Node, Number, Power, equation
 from dynsolve.quantities import letters
+from dynsolve.questions.forward_dynamics.explain import as_far_as_read, is_not_derived, is_too_large
 
 _SQUARE = "The Jacobian is square, and has an inverse itself where its determinant is not 0."
 
@@ -30,13 +30,13 @@ def steps(context: Context) -> Iterator[Step]:
     if "Lambda" not in context.wanted:
         return
     value = context.values["Lambda"]
-    if isinstance(value, Skipped):
+    if is_not_derived(value):
         yield not_derived("Lambda", "The inertia matrix of the task", value.why)
         return
     rows, columns = context.values["Jr"].shape
     transposed = Power(letters.J_TASK, as_row((Negative(Number(1)), "T")))
     square = " = {transposed} 𝐃 𝐉_r⁻¹" if rows == columns else ""
-    yield Step(
+    step = Step(
         id="Lambda",
         title="The inertia matrix of the task",
         why=say(
@@ -47,11 +47,12 @@ def steps(context: Context) -> Iterator[Step]:
         ),
         formula=formula(f"𝚲 = (𝐉_r 𝐃⁻¹ 𝐉_rᵀ)⁻¹{square}", transposed=transposed),
         source=LYNCH_PARK.section("8.6"),
-        working=_working(context),
+        working=() if is_too_large(value) else _working(context),
         result=(equation(letters.TASK_INERTIA, context.form("Lambda")),),
         notes=(("It exists where the rows of the Jacobian are independent.",),),
         detail=Detail.BRIEF,
     )
+    yield as_far_as_read(step, value)
 
 
 def _working(context: Context) -> tuple[Node, ...]:

@@ -16,7 +16,7 @@ from dynsolve.algebra.fraction import RationalExpr, cancelled, is_zero
 from dynsolve.algebra.linear_systems import FractionMatrix, tidy
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
-from dynsolve.derivation.graph import Derivation, Skipped
+from dynsolve.derivation.graph import Derivation, Skipped, known
 from dynsolve.errors import AlgebraError, Finding
 from dynsolve.explain.forms import Forms, entry_of, leading_names
 from dynsolve.notation import tree
@@ -126,7 +126,7 @@ class State(_NumericResults):
 
     def value(self, name: str) -> Any:
         """A value of the derivation, skipped where a denominator is 0 at this state."""
-        value = super().value(name)
+        value = known(super().value(name))
         fractions = value.entries if isinstance(value, FractionMatrix) else (value,)
         if any(is_zero(self._put(one.denominator)) for one in fractions if isinstance(one, RationalExpr)):
             return Skipped("a denominator is 0 at this state")

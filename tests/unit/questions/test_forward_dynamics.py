@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import random
 from pathlib import Path
 
 import pytest
 
 import dynsolve
+from dynsolve.algebra.compact.proof import plain_form
 from dynsolve.errors import VerificationError
+from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import Matrix, Negative, walk
 from dynsolve.quantities import letters
 from dynsolve.questions.forward_dynamics.check import COMPARED, verify_forward
@@ -82,7 +85,6 @@ def test_a_wrong_result_is_found(text: str) -> None:
     ("text", "why"),
     [
         (ELBOW + "constraints: [tip.x - c]\n", "constraints act, too"),
-        (LARGE, "too large"),
         (CART.replace("l*sin(theta)", "l").replace("l*cos(theta)", "l"), "no inverse"),
     ],
 )
@@ -122,6 +124,51 @@ def test_an_answer_is_judged(name: str, change: tuple[str, str], verdict: str, t
     hand_in.write_text(f"answers: {{{name}: [{entries}]}}\n", encoding="utf-8")
     (answer,) = dynsolve.check(CART, hand_in).answers
     assert (answer.name, str(answer.verdict)) == ("qdd_forward", verdict)
+
+
+LONG = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "formula"),
+    [
+        (LARGE, "qdd_forward", "𝐪̈ = 𝐃⁻¹ (𝛕 - 𝐂 𝐪̇ - 𝐠)"),
+        (LONG + "find: [qdd_forward]", "qdd_forward", "𝐪̈ = 𝐃⁻¹ (𝛕 - 𝐂 𝐪̇ - 𝐠)"),
+        (
+            LONG + "constraints: [tip.y, tip.x - k]\nfind: [lambda]",
+            "lambda",
+            "𝛌 = -(𝐀_c 𝐃⁻¹ 𝐀_cᵀ)⁻¹ (𝐀_c 𝐃⁻¹",
+        ),
+        (
+            f"{LARGE.replace('qdd_forward', 'Lambda')}task: [tip.x, tip.y, tip.z]",
+            "Lambda",
+            "𝚲 = (𝐉_r 𝐃⁻¹ 𝐉_rᵀ)⁻¹",
+        ),
+    ],
+)
+def test_what_is_too_long_stops_at_its_formula(text: str, name: str, formula: str) -> None:
+    solution = dynsolve.solve(text)
+    assert "too large to be read" in solution.to_json()["results"][name]["skipped"]
+    told = " ".join(report(solution, Format.TEXT).decode().split())
+    assert told.count(formula) == 2 and "not derived" not in told
+    assert formula in told[told.index("Summary") :]
+
+
+def test_what_is_too_long_is_judged(tmp_path: Path) -> None:
+    asked = f"{LONG}find: [qdd_forward]"
+    key = dynsolve.solve(asked).values["qdd_forward"].value
+    parts = [(plain_form(one.numerator), plain_form(one.denominator)) for one in key.entries]
+    first, *others = [f"({to_python(above)})/({to_python(below)})" for above, below in parts]
+    hand_in = tmp_path / "answers.yaml"
+    for sign, verdict in (("", "correct"), ("-", "wrong")):
+        entries = json.dumps([sign + first, *others])
+        hand_in.write_text(f"answers: {{qdd_forward: {entries}}}\n", encoding="utf-8")
+        (answer,) = dynsolve.check(asked, hand_in).answers
+        assert str(answer.verdict) == verdict
 
 
 def test_what_is_not_derived_has_its_name_and_its_reason_in_the_summary() -> None:
@@ -186,7 +233,7 @@ find: [linear_A, linear_B, qdd_forward]
 
 
 BRANCHES = """
-gravity: [0, -g, 0]
+gravity: none
 dh:
   - {theta: q1*, a: r}
   - {theta: q2*, a: l}
@@ -195,9 +242,7 @@ masses:
   - {mass: m1, link: 1, center: {near: [0, 0, 0]}, shape: {disk: {radius: r}}}
   - {mass: m2, link: 2, center: midpoint, shape: {rod: {length: l}}}
   - {mass: m3, link: 3, center: tip}
-springs: [{stiffness: k, of: q2 - q3}]
 motors: [{turns: q2, inertia: J, ratio: n, carrier: 1}]
-friction: {q1: e1, q2: e2, q3: e3}
 find: [c, qdd_forward]
 """
 
