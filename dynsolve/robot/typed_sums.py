@@ -12,7 +12,7 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.build import negated, summands, total
-from dynsolve.notation.tree import Function, Negative, Node, Power, Sum, Symbol, mapped, names_in, walk
+from dynsolve.notation.tree import ZERO, Function, Negative, Node, Power, Sum, Symbol, mapped, names_in, walk
 from dynsolve.robot.model import Robot
 
 
@@ -34,6 +34,15 @@ def printed_sums(robot: Robot, form: Callable[[Expr], Node]) -> Iterator[Sum]:
             difference = deflection(one, other, form)
             if isinstance(difference, Sum):
                 yield difference
+    rates = {Symbol(name): Symbol(name, 1) for name in robot.ring.names}
+
+    def rate(node: Node) -> Node:
+        return rates.get(node, node) if isinstance(node, Symbol) else node
+
+    for damper in robot.actions.resisting:
+        stretched = mapped(along(damper.along[0], form), rate) if damper.along else ZERO
+        if isinstance(stretched, Sum):
+            yield stretched
     for typed in robot.typed_sums:
         try:
             printed = total([form(value_of(robot.ring, term)) for term in typed.terms])
@@ -46,7 +55,7 @@ def printed_sums(robot: Robot, form: Callable[[Expr], Node]) -> Iterator[Sum]:
             continue
         yield printed
         if not _has_functions(typed) and all(names_in(term) & {*robot.ring.names} for term in terms):
-            yield Sum(tuple(mapped(term, _rate) for term in terms))
+            yield Sum(tuple(mapped(term, rate) for term in terms))
 
 
 def deflection(one: Expr, other: Expr, form: Callable[[Expr], Node]) -> Node:
@@ -62,7 +71,3 @@ def along(one: Expr, form: Callable[[Expr], Node]) -> Node:
 
 def _has_functions(node: Node) -> bool:
     return any(isinstance(part, Function) for part in walk(node))
-
-
-def _rate(node: Node) -> Node:
-    return Symbol(node.name, 1) if isinstance(node, Symbol) else node

@@ -103,8 +103,8 @@ class Compactor:
         self._atoms = RingAtoms(ring, leading, self._groups, self.form)
         self.collector = Collector(self._atoms.table, decimal=decimal, typed=typed, spelled=spelled)
         self._proof = Proof(ring)
-        rates = {symbol for one in spelled for symbol in walk(one) if getattr(symbol, "dots", 0)}
-        self._spelled = [one for one in spelled if rates.isdisjoint(walk(one))]
+        self._of_rates = [one for one in spelled if any(getattr(part, "dots", 0) for part in walk(one))]
+        self._spelled = [one for one in spelled if one not in self._of_rates]
         self._apart = [i for i, part in enumerate(self._atoms.parts) if part in (MASSES, RATES)]
         self._moving = [g.index for g in ring.generators if g.kind in ("sin", "cos") or g.name in ring.names]
         self._given = list(self._moving_sums(frozenset(leading)))
@@ -135,15 +135,16 @@ class Compactor:
         return found
 
     def _collected(self, expr: Expr) -> Node:
-        found = []
+        moving, still = list[Node](), list[Node]()
         for drawn, power in self._given:
             expr, beside = self._drawn(expr, drawn, power)
             if not beside.is_zero:
                 number, mono = self.collector.decompose(self._coefficient(self._terms(beside)))
                 factors = [(self._atoms.table.nodes[atom], e) for atom, e in mono]
-                found.append(times(number, [*factors, drawn], decimal=self.collector.decimal))
-        rest = [] if expr.is_zero else [self._by_rates(self._terms(expr))]
-        return in_one_spelling(total([*rest, *found]), self._spelled)
+                found = times(number, [*factors, drawn], decimal=self.collector.decimal)
+                (moving if drawn[0] in self._of_rates else still).append(found)
+        rest = self._by_rates({} if expr.is_zero else self._terms(expr), moving)
+        return in_one_spelling(total([rest, *still]), self._spelled)
 
     def _terms(self, expr: Expr) -> Terms:
         return self._atoms.terms(str(expr.poly))
@@ -169,6 +170,8 @@ class Compactor:
             if not names.isdisjoint(self.ring.names) and names.isdisjoint(leading):
                 powers = list(accumulate([value_of(self.ring, one)] * HIGHEST_POWER, mul))
                 yield from reversed([((one, e), power) for e, power in enumerate(powers, start=1)])
+        for one in self._of_rates:
+            yield (one, 1), value_of(self.ring, one)
 
     def _drawn(self, expr: Expr, drawn: tuple[Node, int], power: Expr) -> tuple[Expr, Expr]:
         """(the rest, what the power of a sum has beside it): k a, where k a (a x - b y) has all its terms."""
@@ -194,15 +197,20 @@ class Compactor:
 
     # -- velocities and accelerations --------------------------------------------------------------
 
-    def _by_rates(self, terms: Terms) -> Node:
-        """The terms with accelerations, those with velocities and all others, each collected separately."""
+    def _by_rates(self, terms: Terms, drawn: Sequence[Node]) -> Node:
+        """The terms with accelerations, those with velocities and all others, each collected separately.
+
+        What was `drawn` out with velocities stands after these.
+        """
         if not any(e[RATES] for e in terms):
-            return self._coefficient(terms)
+            return total([*drawn, self._coefficient(terms)] if terms else drawn)
         kinds: dict[tuple[int, int], Terms] = {}
         of_rates = {number: self._atoms.kind_of_rates(number) for number in {e[RATES] for e in terms}}
         for e, f in terms.items():
             kinds.setdefault(of_rates[e[RATES]], {})[e] = f
-        return total([self._one_kind(part, kind) for kind, part in sorted(kinds.items(), reverse=True)])
+        found = {kind: self._one_kind(part, kind) for kind, part in sorted(kinds.items(), reverse=True)}
+        still = found.pop((0, 0), ZERO)
+        return total([*found.values(), *drawn, still])
 
     def _one_kind(self, terms: Terms, kind: tuple[int, int]) -> Node:
         """Velocities outside; or angles outside and velocities inside, where that is much cheaper."""

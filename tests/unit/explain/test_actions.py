@@ -132,6 +132,18 @@ springs: [{stiffness: 250, of: z, rest: 0.4}]
     assert to_unicode(forms("tau1")) == "0.5 z̈ + 4.905 + 250(z - 0.4)"
 
 
+def test_each_of_several_dampers_has_its_own_rate() -> None:
+    """Not (b₁ + b) q̇₁ - b q̇₂: a damper is written as a spring is, before what has no rate."""
+    row = "model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m1, at: [x, 0, 0]}, "
+    row += "{mass: m2, at: [y, 0, 0]}]}\nfriction: {x: b1}\nsprings: [{stiffness: k, of: y - x}]\n"
+    forms = solved(row + "dampers: [{damping: b, of: y - x}, {damping: c, of: x + y}]\n").forms
+    assert list(map(to_unicode, (entry for (entry,) in forms.matrix("friction").rows))) == [
+        "b₁ ẋ - b (ẏ - ẋ) + c (ẋ + ẏ)",
+        "b (ẏ - ẋ) + c (ẋ + ẏ)",
+    ]
+    assert to_unicode(forms("tau2")) == "m₂ ÿ + b (ẏ - ẋ) + c (ẋ + ẏ) + k (y - x)"
+
+
 def test_each_of_several_springs_has_its_own_pull() -> None:
     row = "gravity: none\ndh: [{d: q1*}, {d: q2*}]\nmasses: [{mass: m1, link: 1}, {mass: m2, link: 2}]\n"
     springs = "springs: [{stiffness: k, of: q1, rest: a}, {stiffness: 2*k, of: q2 - q1, rest: b}]\n"
