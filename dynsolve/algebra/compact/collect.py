@@ -311,7 +311,9 @@ class Collector:
         if not self.decimal:
             for place, (atom, exponent) in enumerate(atoms):
                 if exponent == 1 and (poly := self._of_fractions(atom)):
-                    factor, whole = self._without_fractions(factor, poly, alone=len(atoms) == 1)
+                    others = (self.atoms.ranks[other][0] for other, _ in atoms if other != atom)
+                    alone = all(rank >= Rank.RATE for rank in others)
+                    factor, whole = self._without_fractions(factor, poly, alone=alone)
                     atoms[place : place + 1] = whole or [(atom, 1)]
                     break
                 if exponent == 2 and (half := self._half_a_square(factor, atom)):
