@@ -78,12 +78,17 @@ def rotor_part(robot: Robot, jacobians: tuple[LinkJacobian, ...] = ()) -> Matrix
     """What the rotors add to D, n×n: Σ I (k_r e_k + J_ωᵀ z)(k_r e_k + J_ωᵀ z)ᵀ, in each carrier's frame."""
     total = Matrix.zero(robot.ring, robot.n, robot.n)
     for rotor in robot.actions.rotors:
-        row = spin(robot, rotor)
-        if rotor.carrier:
-            axis = Matrix.identity(robot.ring, 3).column_at(rotor.axis)
-            row = row + axis.T @ jacobians[rotor.carrier - 1].angular
+        row = rotor_row(robot, rotor, jacobians)
         total = total + (row.T @ row).scale(rotor.inertia)
     return total
+
+
+def rotor_row(robot: Robot, rotor: Rotor, jacobians: tuple[LinkJacobian, ...] = ()) -> Matrix:
+    """k_r e_kᵀ + zᵀ J_ω, 1×n, along the carrier's own axes."""
+    if not rotor.carrier:
+        return spin(robot, rotor)
+    axis = Matrix.identity(robot.ring, 3).column_at(rotor.axis)
+    return spin(robot, rotor) + axis.T @ jacobians[rotor.carrier - 1].angular
 
 
 def rotor_drive(robot: Robot, rotor: Rotor, dw: Matrix | None) -> Expr:

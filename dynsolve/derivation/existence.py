@@ -131,7 +131,7 @@ def _is_never_zero(value: Expr, zeros: Iterable[Expr], signs: ParameterSigns) ->
         and (swings := _swings(zero))
         and _quarters(swings)
     ]
-    at = [here for _, (here, *left) in _at_quarters([value, *fixing]) if all(map(_is_zero, left))]
+    at = [here for _, (here, *left) in at_quarters([value, *fixing]) if all(map(_is_zero, left))]
     known = all(signs.is_positive(here) or signs.is_positive(-here) for here in at)
     return bool(at) and known and names.issubset(name for zero in fixing for name in coordinates_in(zero))
 
@@ -239,10 +239,10 @@ def zeros_at_quarters(values: Sequence[Expr]) -> Iterator[Pose]:
     ring = values[0].ring
     if not ring.has_symbol("pi"):  # half a turn of a spring
         values = [*map(Transfer(ring, with_symbols(ring, ["pi"])), values)]
-    yield from (pose for pose, at in _at_quarters(values) if all(map(_is_zero, at)))
+    yield from (pose for pose, at in at_quarters(values) if all(map(_is_zero, at)))
 
 
-def _at_quarters(values: Sequence[Expr]) -> Iterator[tuple[Pose, list[Expr]]]:
+def at_quarters(values: Sequence[Expr]) -> Iterator[tuple[Pose, list[Expr]]]:
     """The values at all quarter turns of their angles, where their lengths are 0."""
     ring = values[0].ring
     names = dict.fromkeys(name for value in values for name in coordinates_in(value))
@@ -283,7 +283,7 @@ def radians(ring: Ring, degrees: Fraction | int) -> Expr | None:
 
 def _changes_sign(value: Expr, signs: ParameterSigns) -> bool:
     """Whether a value is positive somewhere and negative elsewhere: at quarter turns, or far out."""
-    seen = {sign for _, (at,) in _at_quarters([value]) for sign in (1, -1) if signs.is_positive(at * sign)}
+    seen = {sign for _, (at,) in at_quarters([value]) for sign in (1, -1) if signs.is_positive(at * sign)}
     ring, degrees = value.ring, value.poly.degrees()
     for name in coordinates_in(value):
         degree = int(degrees[ring.symbol_indices[name, 0]])

@@ -425,10 +425,32 @@ def _diagonal(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "[So {} at rest alone: ][So ]{} is positive definite[ for positive parameters[ and tensors of bodies]]."
+    "[So {} at rest alone: ][So ]{} is positive definite"
+    "[ for positive parameters[ and tensors of bodies][ with ...]]."
 )
 def _definite(m: Mechanism, s: Sentence) -> bool:
     return all(np.min(np.linalg.eigvalsh(m.result("D", p))) > 0 for p in m.points(5))
+
+
+@says("For other parameters {} is positive definite.")
+def _definite_elsewhere(m: Mechanism, s: Sentence) -> bool:
+    """Where none of the inequalities holds with which it has no inverse somewhere."""
+    told = [node for _, formulas in s.before() for node in formulas if isinstance(node, tree.Relation)]
+    bounds = [node for node in told if "=" not in node.signs]
+    apart = [p for p in m.points(20) if not any(m.holds(bound, p) for bound in bounds)]
+    return bool(bounds) and all(np.min(np.linalg.eigvalsh(m.result("D", p))) > 0 for p in apart)
+
+
+@says("{} is 0 in no configuration, so that no eigenvalue of {} changes its sign, and in some configuration "
+      "all are positive.")  # fmt: skip
+def _no_eigenvalue_changes_its_sign(m: Mechanism, s: Sentence) -> bool:
+    return _definite(m, s)
+
+
+@says("The velocities that have an inertia are all 0 only at rest: the matrix that makes them of the rates "
+      "has rank # in every configuration.")  # fmt: skip
+def _all_velocities(m: Mechanism, s: Sentence) -> bool:
+    return all(rank(m.result("D", p)) == int(s.words[0]) for p in m.points(5))
 
 
 @says(

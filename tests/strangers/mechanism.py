@@ -7,13 +7,14 @@ import unicodedata
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from itertools import chain, product
+from itertools import chain, islice, product
 from random import Random
 from types import CodeType
 from typing import Any
 
 import numpy as np
 
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.document import Document
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, walk
@@ -53,7 +54,11 @@ class Mechanism:
         return self._points[key]
 
     def points(self, count: int = 3) -> list[Point]:
-        return [self.point(seed=seed) for seed in range(count)]
+        """States with parameters that meet what is assumed of them."""
+        assumed = [bound.value for bound in self.solution.robot.questions.model.assumed]
+        states = (self.point(seed=seed) for seed in range(100))
+        met = (p for p in states if all(evaluate(value, p.names) > 0 for value in assumed))
+        return list(islice(met, count))
 
     def value(self, node: Node, point: Point) -> Any:
         """A formula at a state.  Raises Unknown."""

@@ -7,6 +7,7 @@ minor is taken apart into factors; at a singular configuration one factor of eve
                 and whether equations can hold together
     losses      the rank at a singular configuration, and the directions that are lost there
     sets        all minors at once: the alternatives, each a list of conditions
+    inertia     where D has no inverse, by the Jacobian of all that has an inertia
 
 Spong, Hutchinson, Vidyasagar, section 4.9 (2006).
 """

@@ -237,7 +237,7 @@ class Condition(Struct, frozen=True, dict=True):
     def _remainder(self, other: Expr) -> Expr:
         """Another expression less a multiple of this one, where that is shorter."""
         rest = Expr(other.ring, other.ring.reduce(divmod(other.poly, self.expr.poly)[1]))
-        shortest = min((rest, *self._less_terms(other)), key=len)
+        shortest = min((*self._less_terms(other), rest), key=len)
         return shortest if len(shortest) < len(other) else other
 
     def _less_terms(self, other: Expr) -> Iterator[Expr]:

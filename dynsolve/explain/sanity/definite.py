@@ -14,12 +14,17 @@ from fractions import Fraction
 from itertools import combinations
 
 from dynsolve.algebra import matrix
-from dynsolve.algebra.factors import trig_factors
 from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.linear_systems import part
-from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.linear_systems import blocks, part
 from dynsolve.algebra.ring import Expr
-from dynsolve.derivation.elimination import ParameterSigns
+from dynsolve.derivation.singular.inertia import (
+    Place,
+    is_of_a_body,
+    is_of_no_body,
+    of_parameters,
+    some_without_inverse,
+    without_inverse,
+)
 from dynsolve.document import Prose, Reference
 from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
@@ -37,7 +42,7 @@ from dynsolve.explain.sanity.determinant import (
 )
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.squares import without_signs
-from dynsolve.explain.writing import listed, sum_of
+from dynsolve.explain.writing import as_row, listed, side_by_side, sum_of
 from dynsolve.notation.build import cost, times
 from dynsolve.notation.tree import (
     ZERO,
@@ -58,7 +63,6 @@ from dynsolve.notation.tree import (
     number,
 )
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Body
 
 LONGEST = 60
 """The operations of a determinant up to which it is of use to a reader."""
@@ -70,41 +74,42 @@ LONGEST_ENTRY = 8
 
 def definite_step(context: Context) -> Step | None:
     """What shows that D is positive definite, or always singular; None where neither is seen."""
-    if any(_is_of_no_body(context, body) for body in context.robot.bodies):
+    if any(is_of_no_body(context.values, body) for body in context.robot.bodies):
         return None
-    shown = None if context.robot.n < 2 else _by_entries(context) or _by_bodies(context)
-    return shown or _singular(context)
+    is_matrix = context.robot.n > 1
+    if is_matrix and (shown := _by_entries(context)) is not None:
+        return shown
+    seen = without_inverse(context.robot, context.values)
+    return (_by_energies(context, seen) if is_matrix else None) or _singular(context, seen)
 
 
-def _singular(context: Context) -> Step | None:
-    """That det D = 0 in every pose, or where a factor of it is, and what that means; None of any other."""
-    D, rows = context.values["D"], range(context.robot.n)
-    value = matrix.determinant(D)
-    zero = next((i + 1 for i in rows if all(entry.is_zero for entry in D.rows[i])), 0)
-    equal = next(((i + 1, j + 1) for i, j in combinations(rows, 2) if D.rows[i] == D.rows[j]), (0, 0))
+def _singular(context: Context, seen: list[Place] | None) -> Step | None:
+    """That det D = 0 in every pose, or where it is seen to be 0, and what that means; None of any other."""
+    rows = context.values["D"].rows
+    value = matrix.determinant(context.values["D"])
+    zero = next((i for i, row in enumerate(rows, 1) if all(entry.is_zero for entry in row)), 0)
+    equal = next(((i, j) for (i, a), (j, b) in combinations(enumerate(rows, 1), 2) if a == b), (0, 0))
+    places = [] if value.is_zero else [*_vanishing(context, value, seen)]
+    if not (value.is_zero or places):
+        return None
     reason = "In every pose {det}"
-    if not value.is_zero:
-        reason = "{det}, so $𝐃$ has no inverse where {places}"
+    if places:
+        follows = cost(context.show(value)) <= LONGEST and all(len(zeros) == 1 for zeros, _ in seen or ())
+        reason = f"{'{det}, so ' * follows}$𝐃$ has no inverse where {{places}}"
     elif zero:
         reason = "In every pose row {zero} of $𝐃$ is 0, so {det}"
     elif any(equal):
         reason = "In every pose rows {i} and {j} of $𝐃$ are equal, so {det}"
-    form = context.show(value)
-    if cost(form) > LONGEST:
-        return None
-    places = [] if value.is_zero else [*_vanishing(context, value)]
-    if not (value.is_zero or places):
-        return None
     told = say(
-        reason + ": some rates that are not 0 have no kinetic energy, and the forces do not determine all "
-        "accelerations.",
-        det=equation(Row((Words("det "), letters.D)), form),
+        f"{reason}: some rates that are not 0 have no kinetic energy, and the forces do not determine all "
+        f"accelerations.{_ELSE * (bool(seen) and all(bounds for _, bounds in seen or ()))}",
+        det=_determinant(context, value),
         zero=zero,
         i=equal[0],
         j=equal[1],
         places=listed(places, "or"),
     )
-    in_poses = names_in(*places) & {*context.robot.ring.names}
+    in_poses = names_in(as_row(listed(places))) & {*context.robot.ring.names}
     where = (" in some poses" if in_poses else " for some parameters") if places else ""
     return Step(
         id="definite",
@@ -116,17 +121,18 @@ def _singular(context: Context) -> Step | None:
     )
 
 
-def _vanishing(context: Context, value: Expr) -> Iterator[Node]:
-    """Where a factor is 0: a coordinate, a sine or cosine of some; R = r, of parameters that may be alike."""
-    signs = ParameterSigns(context.robot.questions.model.assumed)
-    for factor, _ in trig_factors(value):
-        form = without_signs(context.show(factor))
-        has_both = len(factor) == 2 and len({size > 0 for size in factor.poly.coeffs()}) == 2
-        if factor.ring.depends_on_coordinates(factor):
-            if isinstance(form, Function | Symbol):
-                yield equation(form, ZERO)
-        elif has_both and not signs.open_part(factor).is_number:
-            yield equation(*Inequalities(context.robot).inequality(Bound(factor)).parts)
+_ELSE = " For other parameters $𝐃$ is positive definite."
+
+
+def _vanishing(context: Context, value: Expr, seen: list[Place] | None) -> Iterator[Prose]:
+    """Where D has no inverse: in some poses, or where R = r, of parameters that may be alike."""
+    compare = Inequalities(context.robot).inequality
+    for zeros, bounds in some_without_inverse(context.robot, value) if seen is None else seen:
+        equations = [equation(without_signs(context.show(zero)), ZERO) for zero in zeros]
+        possible = say(", which is possible if {bounds}", bounds=listed([*map(compare, bounds)]))
+        yield (*listed(equations), *(possible if bounds else ()))
+    for factor in of_parameters(context.robot, value):
+        yield (equation(*compare(Bound(factor)).parts),)
 
 
 def _step(
@@ -138,45 +144,25 @@ def _step(
     by_energies: bool = False,
 ) -> Step:
     """The step; `by_energies` says that it rests on that no body's kinetic energy is negative."""
-    has_parameters = bool(context.robot.parameters)
-    open_tensors = by_energies and not all(_is_of_a_body(context, body) for body in context.robot.bodies)
+    robot, assumed = context.robot, context.robot.questions.model.assumed
+    is_of_bodies = all(is_of_a_body(context.values, body) for body in robot.bodies if by_energies)
+    bounds = side_by_side([*map(Inequalities(robot).inequality, assumed)])
+    given, holds = (tensors * (not is_of_bodies) for tensors in _TENSORS)
+    given = f"Let all parameters be positive{given}{', and {bounds}' * bool(assumed)}. "
+    holds = f" for positive parameters{holds}{' with {bounds}' * bool(assumed)}"
     return Step(
         id="definite",
         title="Check: the inertia matrix is positive definite",
-        why=say(
-            "{assumed}{why}",
-            assumed=f"Let all parameters be positive{_TENSORS[0] * open_tensors}. " * has_parameters,
-            why=why,
-        ),
+        why=say(f"{given * bool(robot.parameters)}{{why}}", bounds=bounds, why=why),
         source=spong("7.5.1"),
         lines=lines,
         concluding=concluding,
-        outcome=say(
-            f"$𝐃$ is positive definite{' for positive parameters' * has_parameters}"
-            f"{_TENSORS[1] * (open_tensors and has_parameters)}."
-        ),
+        outcome=say(f"$𝐃$ is positive definite{holds * bool(robot.parameters)}.", bounds=bounds),
         is_task=False,
     )
 
 
 _TENSORS = ", and the tensors those of bodies", " and tensors of bodies"
-
-
-def _is_of_a_body(context: Context, body: Body) -> bool:
-    """Whether a tensor is seen to be one of a body, whatever positive numbers its parameters are."""
-    rows = context.values[f"I_body{body.name}"].rows
-    return all(
-        all(factor >= 0 for factor in entry.poly.coeffs()) if i == j else entry.is_zero
-        for i, row in enumerate(rows)
-        for j, entry in enumerate(row)
-    )
-
-
-def _is_of_no_body(context: Context, body: Body) -> bool:
-    """Whether a tensor has a negative moment about the mass centre, as one given in part elsewhere may."""
-    rows = context.values[f"I_body{body.name}"].rows
-    moments = (rows[k][k].poly.coeffs() for k in range(3))
-    return any(moment and all(factor < 0 for factor in moment) for moment in moments)
 
 
 _APART = " $𝐃$ consists of {parts}, not coupled with each other: each counts by itself."
@@ -186,7 +172,7 @@ def _by_entries(context: Context) -> Step | None:
     """By the entries of the diagonal, and by minors where coordinates are coupled."""
     firsts: list[int] = []
     determinants: list[Determinant] = []
-    all_blocks = blocks(context.values["D"])
+    all_blocks = sorted(blocks(context.values["D"]))
     for block in all_blocks:
         first = _first(context, block)
         if first is None:
@@ -297,8 +283,8 @@ def _block(context: Context, block: Sequence[int]) -> Prose:
     return (f"the {len(block)}×{len(block)} block of ", *listed(names))
 
 
-def _by_bodies(context: Context) -> Step | None:
-    """Body by body: its energy vanishes only where one rate more does."""
+def _by_energies(context: Context, seen: list[Place] | None) -> Step | None:
+    """Body by body: its energy vanishes only where one rate more does; or all at once, by the rank."""
     robot, resting, lines = context.robot, set[int](), list[Node]()
     for body in sorted(robot.bodies, key=lambda body: body.link):
         D = context.values[f"Dv{body.name}"] + context.values[f"Dw{body.name}"]
@@ -313,26 +299,39 @@ def _by_bodies(context: Context) -> Step | None:
             value = times(1, [(factor, 1), (rate, 2)], decimal=robot.has_decimals)
             lines.append(equation(energy, value))
             resting.add(k)
-    if len(resting) < robot.n:
+    is_by_lines = len(resting) == robot.n
+    if not is_by_lines and seen != []:
         return None
+    if robot.given is not None:
+        return _step(context, say(_SIGNS, det=_determinant(context, matrix.determinant(context.values["D"]))))
     why = say(
         "$𝐪̇ᵀ 𝐃 𝐪̇ = 2 𝒦$, and no body{rotor} has a negative kinetic energy: where their sum is 0, each of "
-        "them is 0. In each line the rates of the lines before are 0, so that it is 0 only where its own "
-        "rate is:",
+        f"them is 0. {_LINE_BY_LINE if is_by_lines else _BY_RANK}",
         rotor=" and no rotor" if robot.actions.rotors else "",
+        n=robot.n,
     )
     concluding = say("So $𝐪̇ᵀ 𝐃 𝐪̇ = 0$ at rest alone: $𝐃$ is positive definite.")
-    return _step(context, why, (Line((), tuple(lines)),), concluding, by_energies=True)
+    shown = (Line((), tuple(lines)),) if is_by_lines else ()
+    return _step(context, why, shown, concluding, by_energies=True)
 
 
-def blocks(D: Matrix) -> list[list[int]]:
-    """The coordinates by blocks: coupled ones, through others or at once, are in one."""
-    found: list[list[int]] = []
-    for i in range(D.shape[0]):
-        coupled = [block for block in found if any(not D[i, j].is_zero for j in block)]
-        merged = sorted([i, *(j for block in coupled for j in block)])
-        found = [block for block in found if block not in coupled] + [merged]
-    return sorted(found)
+_LINE_BY_LINE = (
+    "In each line the rates of the lines before are 0, so that it is 0 only where its own rate is:"
+)
+_BY_RANK = (
+    "The velocities that have an inertia are all 0 only at rest: the matrix that makes them of the rates has "
+    "rank {n} in every configuration."
+)
+_SIGNS = (
+    "{det} is 0 in no configuration, so that no eigenvalue of $𝐃$ changes its sign, and in some "
+    "configuration all are positive. So $𝐃$ is positive definite."
+)
+
+
+def _determinant(context: Context, value: Expr) -> Node:
+    """det D, and what it is where that is of use."""
+    name, form = Row((Words("det "), letters.D)), context.show(value)
+    return equation(name, form) if cost(form) <= LONGEST else name
 
 
 def _own_part(context: Context, k: int) -> tuple[str, Node] | None:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 
+from dynsolve.algebra.linear_systems import blocks
 from dynsolve.algebra.matrix import determinant
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity import CHECKS, CHECKS_OF_LONGER_ARMS, sanity_steps
-from dynsolve.explain.sanity.definite import blocks, definite_step
+from dynsolve.explain.sanity.definite import definite_step
 from dynsolve.explain.sanity.determinant import is_nonnegative, is_positive, masses_and_moments
 from dynsolve.explain.step import Step
 from dynsolve.notation.text import read
@@ -248,13 +250,84 @@ POINTS = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nmasses: [{mass: m2, li
 """Without a mass at the elbow D is singular where the arm is stretched."""
 
 
-OFFSET = "dh: [{theta: q1*, a: e, alpha: 90deg}, {theta: q2*, a: l2}]\nmasses: [{mass: m2, link: 2}]\n"
-"""D is singular where e + l₂ c₂ = 0, which depends on the lengths."""
-
-
-def test_of_a_matrix_that_may_be_singular_nothing_is_said() -> None:
-    assert check(OFFSET, "definite") is None
+def test_without_moments_nothing_is_said_of_points() -> None:
     assert check(POINTS, "point_masses") is None
+
+
+OFFSET = "dh: [{theta: q1*, a: e, alpha: 90deg}, {theta: q2*, a: l2}]\nmasses: [{mass: m2, link: 2}]\n"
+OFFSET_3 = """
+dh: [{theta: q1*, a: e, alpha: 90deg}, {theta: q2*, a: f}, {theta: q3*, a: f}]
+masses: [{mass: m, link: 2}, {mass: 2*m, link: 3}]
+"""
+LYING = """
+axes:
+  - {turn: u1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {turn: u2, about: [0, 1, 0], through: [0, 0, H]}
+  - {slide: u3, along: [0, 0, 1], through: [W, 0, H]}
+tip: [W, 0, H + u3]
+masses: [{mass: m2, link: 2, center: {drawn: [W/2, 0, H]}}, {mass: m3, link: 3}]
+"""
+GIVEN = "model:\n  {coordinates: {q: revolute, w: revolute}, D: [[a, b*cos(q)], [b*cos(q), c]]}\n"
+GEARED = """
+dh: [{theta: q1*, alpha: -90deg}, {d: q2*, alpha: 90deg}, {theta: q3*, a: l3}]
+masses:
+  - {mass: m2, link: 2}
+  - {mass: m3, link: 3, center: {near: [c3, 0, 0]}, inertia: {zz: I3}}
+motors:
+  - {turns: q1, inertia: Im1, ratio: n1}
+  - {turns: q2, inertia: Im2, ratio: n2, carrier: 1}
+  - {turns: q3, inertia: Im3, ratio: n3, carrier: 2}
+"""
+QUARTER = math.pi / 2
+
+
+@pytest.mark.parametrize(
+    ("problem", "told", "bound", "inside", "outside", "there"),
+    [
+        (OFFSET, "e + l₂ cos(q₂) = 0", "l₂ ≥ e", {"e": 0.6, "l2": 0.8}, {"e": 0.8, "l2": 0.6},
+         {"q2": math.acos(-0.75)}),
+        (OFFSET_3, "e + f cos(q₂) = 0 and cos(q₂ + q₃) = 0", "f ≥ e", {"e": 0.6, "f": 0.8},
+         {"e": 0.8, "f": 0.6}, {"q2": math.acos(-0.75), "q3": QUARTER - math.acos(-0.75)}),
+        (LYING, "cos(u₂) = 0 and u₃ = 0", "", {}, {}, {"u2": -QUARTER, "u3": 0}),
+        (GIVEN, "b² cos²(q) - a c = 0", "b² ≥ a c", {"a": 2, "b": 2, "c": 1}, {"a": 2, "b": 1.4, "c": 1},
+         {"q": math.acos(0.5**0.5)}),
+    ],
+)  # fmt: skip
+def test_all_places_without_an_inverse_are_told(
+    problem: str,
+    told: str,
+    bound: str,
+    inside: dict[str, float],
+    outside: dict[str, float],
+    there: dict[str, float],
+) -> None:
+    """Several conditions at once, and those that need lengths: each held in numbers."""
+    found, text = context(problem), said(problem, "definite")
+    assert f"D has no inverse where {told}{f', which is possible if {bound}' * bool(bound)}: " in text
+    assert text.endswith("For other parameters D is positive definite.") is bool(bound)
+    state = {**values_of(found, seed=3), **inside}
+    assert not is_definite(found, {**state, **there})
+    assert is_definite(found, {**state, **there, **{name: value + 0.3 for name, value in there.items()}})
+    if bound:
+        outer = [{**values_of(found, seed=k), **outside} for k in range(20)]
+        assert all(is_definite(found, each) for each in outer)
+
+
+def test_what_is_assumed_may_leave_no_place() -> None:
+    assert said(OFFSET + "assume: [e > l2]\nfind: [D, equilibria]\n", "definite").endswith(
+        "in every configuration."
+    )
+    assert said(GIVEN + "assume: [a*c > b^2]\nfind: [D, equilibria]\n", "definite") == (
+        "Let all parameters be positive, and a c > b². det D = a c - b² cos²(q) is 0 in no configuration, "
+        "so that no eigenvalue of D changes its sign, and in some configuration all are positive. So D is "
+        "positive definite."
+    )
+
+
+def test_rotors_may_be_what_moves_where_the_bodies_rest() -> None:
+    assert "has rank 3 in every configuration" in said(GEARED, "definite")
+    found = context(GEARED)
+    assert all(is_definite(found, {**values_of(found, seed=k), "q2": 0}) for k in range(10))
 
 
 ABOUT_ONE_AXIS = """
@@ -315,9 +388,12 @@ def test_joints_that_gravity_does_not_load(problem: str, told: str | None) -> No
     assert (check(problem, "unloaded") is None) if told is None else (said(problem, "unloaded") == told)
 
 
+SINGLE = "dh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
+
+
 @pytest.mark.parametrize("step_of", [*CHECKS[1:], *CHECKS_OF_LONGER_ARMS], ids=lambda made: made.__name__)
 def test_a_check_speaks_of_some_robots_only(step_of: Callable[[Context], Step | None]) -> None:
-    problems = ("planar-2r", "planar-2r-remote", "elbow-3r", "five-bar", "elastic-joint", POINTS, OFFSET)
+    problems = ("planar-2r", "planar-2r-remote", "elbow-3r", "five-bar", "elastic-joint", POINTS, SINGLE)
     found = [step_of(context(problem)) for problem in problems]
     assert None in found and len({step.id for step in found if step is not None}) == 1
 
@@ -366,9 +442,9 @@ def test_what_is_said_of_any_robot_is_true(problem: str) -> None:
 
 
 def is_definite(found: Context, state: dict[str, float]) -> bool:
-    """Whether all eigenvalues of D are positive."""
+    """Whether all eigenvalues of D are positive, and not by rounding."""
     matrix = np.array([[evaluate(entry, state) for entry in row] for row in found.values["D"].rows])
-    return bool(np.linalg.eigvalsh(matrix).min() > 0)
+    return bool(np.linalg.eigvalsh(matrix).min() > 1e-12)
 
 
 @pytest.mark.parametrize(
@@ -401,7 +477,7 @@ def test_a_pose_puts_values_for_angles() -> None:
 
 def test_blocks_and_determinants() -> None:
     D = context("elbow-3r").values["D"]
-    assert blocks(D) == [[0], [1, 2]]
+    assert sorted(blocks(D)) == [(0,), (1, 2)]
     whole: Expr = determinant(D)
     assert whole == D[0, 0] * (D[1, 1] * D[2, 2] - D[1, 2] * D[1, 2])
     assert masses_and_moments(context("elbow-3r").robot) >= {"m1", "I2xx", "I3zz"}
