@@ -28,6 +28,7 @@ from dynsolve.algebra.compact.terms import (
     Polynomial,
     Rational,
     Terms,
+    add_term,
     common,
     divide,
     exact,
@@ -234,6 +235,11 @@ class Compactor:
         outside = self.collector.sum_of(parts)
         if len(split) == 1:
             return outside
+        squares = self._squares_of_sums(split) if kind == (0, 2) else None
+        if squares is not None:
+            squared = self.collector.apart(self._grouped(squares.items(), self._coefficient))
+            if self.collector.cost(squared) < self.collector.cost(self.collector.apart(parts)):
+                return squared
         if len(terms) <= self._large:
             inside = self._by_angles(terms)
             cost = self.collector.cost
@@ -242,6 +248,33 @@ class Compactor:
             if cost(inside) < cost(outside) * (1 if shortest else MUCH_CHEAPER):
                 return inside
         return self.collector.apart(parts)
+
+    def _squares_of_sums(self, split: Mapping[int, Terms]) -> dict[Monomial, Terms] | None:
+        """a q̇₁² + 2b q̇₁ q̇₂ + b q̇₂² as b (q̇₁ + q̇₂)² + (a - b) q̇₁², where that has fewer terms; else None."""
+        parts = dict(self._monomials(split))
+        squares = [mono for mono in parts if len(mono) == 1]
+        found: dict[Monomial, Terms] = {}
+        for mono in reversed(squares):
+            square, ((last, _),) = parts.get(mono, {}), mono
+            beside = {other: part for other, part in parts.items() if other != mono and last in dict(other)}
+            key, size = primitive(square) if square else (None, 1)
+            made = {other: primitive(part) for other, part in beside.items()}
+            if not beside or any(own != key for own, _ in made.values()):
+                continue
+            rates: dict[int, Rational] = {last: 1}
+            for other, (_, f) in made.items():
+                ((rate, _),) = divide(other, ((last, 1),))
+                rates[rate] = exact(f, 2 * size)
+            rest = {other: dict(part) for other, part in parts.items()}
+            for x, f in rates.items():
+                for y, g in rates.items():
+                    for e, h in square.items():
+                        add_term(rest.setdefault(multiply(((x, 1),), ((y, 1),)), {}), e, -f * g * h)
+            rest = {other: part for other, part in rest.items() if part}
+            if sum(map(len, rest.values())) + len(square) < sum(map(len, parts.values())):
+                node = self.collector.form({((x, 1),): f for x, f in rates.items()})
+                found[((self._atoms.table.number(node), 2),)], parts = square, rest
+        return found | parts if found else None
 
     def _merged(self, split: Mapping[int, Terms], form: Callable[[Terms], Node]) -> Node:
         """Σ part · monomial, where monomials whose parts differ by a rational factor are summed first."""

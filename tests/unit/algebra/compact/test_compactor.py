@@ -61,6 +61,14 @@ def compact(text: str) -> str:
         ("a*q1_dot + a*q2_dot", "a*(q1_dot + q2_dot)"),
         ("I1*q1_dot^2/2 + I1*q1_dot*q2_dot + I1*q2_dot^2/2", "I1*(q1_dot + q2_dot)**2/2"),
         ("-a*sin(q1) - b*sin(q1 + q2)", "-a*sin(q1) - b*sin(q1 + q2)"),
+        (
+            "(m1*a^2 + I1)*q1_dot^2 + I1*(2*q1_dot*q2_dot + q2_dot^2)",
+            "m1*a**2*q1_dot**2 + I1*(q1_dot + q2_dot)**2",
+        ),
+        (
+            "sin(q1 + q2)*((b + a*cos(q2))*q1_dot^2 + b*(2*q1_dot*q2_dot + q2_dot^2))",
+            "sin(q1 + q2)*(a*cos(q2)*q1_dot**2 + b*(q1_dot + q2_dot)**2)",
+        ),
         ("2*a*q1_dot*q2_dot + a*q2_dot^2", "a*(2*q1_dot*q2_dot + q2_dot**2)"),
         ("m1*a^2/3", "m1*a**2/3"),
         ("m1*b^2/2 + m2*a^2*cos(q1)^2/12", "m1*b**2/2 + m2*a**2*cos(q1)**2/12"),
