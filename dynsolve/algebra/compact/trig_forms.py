@@ -35,6 +35,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from fractions import Fraction
 from itertools import combinations, product
 from math import comb, inf
+from operator import mul
 from typing import NamedTuple
 
 from flint import fmpq, fmpq_poly, fmpz_poly
@@ -56,6 +57,9 @@ TrigForm = dict[TrigMonomial, Rational]
 
 LARGEST_POWER = 6
 """Above this power of one angle only the Fourier form and the normal form are tried."""
+
+MOST_COMBINED = 6
+"""Of more terms no two are combined by themselves."""
 
 
 def trig_forms(poly: TrigPolynomial) -> list[TrigForm]:
@@ -120,6 +124,25 @@ def _eliminations(poly: TrigPolynomial, basis: list[Multiples]) -> Iterator[Trig
                 written = _homogeneous(written, j)
         if written is not None:
             yield _products(written, basis)
+            yield from _with_one_combined(written, basis)
+
+
+def _with_one_combined(poly: TrigPolynomial, basis: list[Multiples]) -> Iterator[TrigForm]:
+    """Two terms of several as a product: s₁² s₁₂² + s₁ c₁ s₁₂ c₁₂ - 1 as s₁ s₁₂ c₂ - 1."""
+    for (e, f), (other, g) in combinations(poly.items(), 2) if 2 < len(poly) <= MOST_COMBINED else ():
+        if f not in (g, -g):
+            continue
+        shared = tuple(map(min, e, other))
+        pair = {tuple(a - b for a, b in zip(one, shared, strict=True)): h for one, h in ((e, f), (other, g))}
+        terms = list(terms_of(fourier_form(pair)))
+        if len(terms) == 1 and any(terms[0][0][1]):
+            (((name, multiples), factor),) = terms
+            columns = zip(*basis, strict=True)
+            sign, angle = positive(tuple(sum(map(mul, multiples, column)) for column in columns))
+            (beside,) = _products({shared: 1}, basis)
+            rest = {one: h for one, h in poly.items() if one not in (e, other)}
+            combined = (*beside, ((name, angle), 1))
+            yield _products(rest, basis) | {combined: factor * sign if name == "sin" else factor}
 
 
 def _without_squares(poly: TrigPolynomial, place: int) -> TrigPolynomial:

@@ -69,6 +69,10 @@ def compact(text: str) -> str:
             "sin(q1 + q2)*((b + a*cos(q2))*q1_dot^2 + b*(2*q1_dot*q2_dot + q2_dot^2))",
             "sin(q1 + q2)*(a*cos(q2)*q1_dot**2 + b*(q1_dot + q2_dot)**2)",
         ),
+        (
+            "sin(q1)^2*sin(q1 + q2)^2 + sin(q1)*cos(q1)*sin(q1 + q2)*cos(q1 + q2) - 1",
+            "sin(q1)*sin(q1 + q2)*cos(q2) - 1",
+        ),
         ("2*a*q1_dot*q2_dot + a*q2_dot^2", "a*(2*q1_dot*q2_dot + q2_dot**2)"),
         ("m1*a^2/3", "m1*a**2/3"),
         ("m1*b^2/2 + m2*a^2*cos(q1)^2/12", "m1*b**2/2 + m2*a**2*cos(q1)**2/12"),
