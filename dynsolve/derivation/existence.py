@@ -17,6 +17,8 @@ from dynsolve.algebra.angles import Angle, name_alone, names_of
 from dynsolve.algebra.fourier import Multiples, fourier_form, positive
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.linear_systems import part
+from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import with_symbols
@@ -151,14 +153,21 @@ def _apart(values: Iterable[Expr]) -> list[list[Expr]]:
 
 def coordinates_in(value: Expr) -> list[str]:
     """The coordinates that stand in a value, or in its angles."""
-    ring, degrees = value.ring, value.poly.degrees()
+    ring, outside = value.ring, coordinates_outside(value)
+    degrees = value.poly.degrees()
     turning = {
         name
         for pair in _turning(ring)
         if degrees[pair.sine] > 0 or degrees[pair.cosine] > 0
         for name in names_of(pair.angle)
     }
-    return [name for name in ring.names if name in turning or degrees[ring.symbol_indices[name, 0]] > 0]
+    return [name for name in ring.names if name in turning or name in outside]
+
+
+def coordinates_outside(value: Expr) -> list[str]:
+    """The coordinates that stand in a value outside of sines and cosines."""
+    degrees = value.poly.degrees()
+    return [name for name in value.ring.names if degrees[value.ring.symbol_indices[name, 0]] > 0]
 
 
 def _swing_apart(values: Sequence[Expr], signs: ParameterSigns) -> bool:
@@ -221,6 +230,31 @@ def _choices(
 
 def _is_zero(value: Expr) -> bool:
     return value.is_zero
+
+
+def has_least_energy(forces: Sequence[Expr], signs: ParameterSigns) -> bool:
+    """Whether an energy whose derivatives by all coordinates these are is least somewhere.
+
+    It is ½ uᵀ K u and less, which is linear in u at most, periodic in other angles: with a K that is positive
+    definite, of all lengths and of what stands outside of sines and cosines, it grows beyond all bounds.
+    """
+    ring = forces[0].ring
+    places, known = range(len(ring.names)), [_swings(force, linear=True) for force in forces]
+    atoms = [(atom, rate) for pair in _turning(ring) for atom, rate in pair.angle.terms]
+    if not all(known) or any(name_alone(atom) not in ring.names for atom, _ in atoms):
+        return False
+    means = [_constant(swings or {}, ring) for swings in known]
+    K = [[ring.diff(mean, k) for k in places] for mean in means]
+    kinds = dict(ring.coordinates)
+    outside = {name for force in forces for name in coordinates_outside(force)}
+    growing = [
+        k
+        for k, name in enumerate(ring.names)
+        if kinds[name] == "prismatic" or name in outside or not means[k].is_zero
+    ]
+    stiff = Matrix.of(ring, ([K[i][j] for j in growing] for i in growing))
+    firsts = [tuple(range(size)) for size in range(1, len(growing) + 1)]
+    return all(signs.is_positive(determinant(part(stiff, first, first))) for first in firsts)
 
 
 def rests(values: Sequence[Expr]) -> Iterator[Pose]:
@@ -357,12 +391,17 @@ def _turning(ring: Ring) -> list[Pair]:
     return [pair for pair in ring.pairs if ring.depends_on_coordinates(ring.generator(pair.sine))]
 
 
-def _swings(value: Expr) -> Swings | None:
-    """A value as swings about what is constant; None where coordinates stand elsewhere in it."""
+def _swings(value: Expr, *, linear: bool = False) -> Swings | None:
+    """A value as swings about what is constant; None where coordinates stand elsewhere in it.
+
+    In what is `linear` they may stand in front of swings, none in another's factor.
+    """
     ring = value.ring
     swings = fourier_parts(value, [(pair.sine, pair.cosine) for pair in _turning(ring)])
-    is_free = not any(ring.depends_on_coordinates(part) for both in swings.values() for part in both)
-    return swings if is_free else None
+    parts = [part for both in swings.values() for part in both]
+    if linear:
+        parts = [ring.diff(part, k) for part in parts for k in range(len(ring.names))]
+    return None if any(map(ring.depends_on_coordinates, parts)) else swings
 
 
 def only_ends(value: Expr, signs: ParameterSigns) -> tuple[Expr, ...]:

@@ -248,6 +248,11 @@ def _of_cases(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterat
             )
         for value in dict.fromkeys(one.expr for case in found.alternatives for one in case):
             yield from _in_numbers(shown, value)
+        if found.has_least:
+            yield (
+                "The potential energy grows beyond all bounds with the coordinates in which it is not "
+                "periodic, so that it is least somewhere: this always has solutions.",
+            )
         yield from shown.existence("equilibria", found.exist, found.is_seen)
         yield from _unseen(found)
         if where:

@@ -43,6 +43,7 @@ from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import (
     conditions,
     coordinates_in,
+    has_least_energy,
     is_seen,
     not_negative,
     quarter_turn,
@@ -116,9 +117,10 @@ class Equilibria(Struct, frozen=True):
     `special` is; where there `may_be_others`, that are not told, for general parameters.  With constraints
     each is without the sets that are `excluded`, and further sets on which there are no multipliers are left
     out if not `is_whole`; where the rows of A_c `may_be_dependent` nothing is known.  Of an energy that
-    `is_convex` there is one at most.  `never` has conditions
-    that are no case, and what is not 0 where they hold.  Of what `is_seen` the inequalities are all.  Of the
-    `singular` it is not known whether they are equilibria: coordinates, from 0, that they fix move no body.
+    `is_convex` there is one at most; one that `has_least` is least somewhere, and the only case always there.
+    `never` has conditions that are no case, and what is not 0 where they hold.  Of what `is_seen` the
+    inequalities are all.  Of the `singular` it is not known whether they are equilibria: coordinates, from 0,
+    that they fix move no body.
     """
 
     rows: tuple[Expr, ...]
@@ -135,6 +137,7 @@ class Equilibria(Struct, frozen=True):
     singular: tuple[tuple[Alternative, tuple[int, ...]], ...] = ()
     only: tuple[tuple[Expr, Expr, tuple[Bound, ...]], ...] = ()
     is_convex: bool = False
+    has_least: bool = False
 
 
 def held_elsewhere(found: Equilibria, number: int, without: Alternative) -> list[int]:
@@ -246,7 +249,12 @@ class _Search:
         points = self._points(exist, forces, may_be_held)
         short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
         never = (_never(one, self.signs) for one in alternatives if one not in possible)
-        is_always = len(exist) == 1 and settled is not None and self._is_always(settled, *exist.values())
+        seen = [_is_seen(one, self.signs) for one in exist]
+        if len(exist) == 1 and settled is not None and self._is_always(settled, *exist.values()):
+            seen = [True]
+        has_least = len(exist) == 1 and not (all(seen) or singular) and self._has_least(forces)
+        if has_least:
+            exist, seen = dict.fromkeys(exist, ()), [True]
         return Equilibria(
             rows=self.left,
             alternatives=tuple(exist),
@@ -258,10 +266,11 @@ class _Search:
             is_whole=settled is None or settled.is_whole,
             may_be_dependent=self.held is not None and settled is None,
             never=(*special.never, *never),
-            is_seen=tuple(is_always or _is_seen(one, self.signs) for one in exist),
+            is_seen=tuple(seen),
             singular=tuple(singular.items()),
             only=tuple(dict.fromkeys(self.only)),
             is_convex=rest is not None,
+            has_least=has_least,
         )
 
     def _only_rest(self, forces: Matrix) -> tuple[Alternative, ...] | None:
@@ -282,6 +291,13 @@ class _Search:
             zeros = [self.there(q - at) for q, at in each if at is not None]
             return common_zeros(zeros) if len(zeros) == len(each) else None
         return None
+
+    def _has_least(self, forces: Matrix) -> bool:
+        """Whether nothing holds the energy back from where it is least, and that is somewhere."""
+        are_all = self.held is None and len(wanted_rows(self.robot)) == self.robot.n
+        return are_all and has_least_energy(
+            forces.entries, ParameterSigns(self.robot.questions.model.assumed)
+        )
 
     def _narrowed(self, case: Alternative) -> tuple[Alternative, ...]:
         """A case with q = 0 for an equation in q that is 0 there alone, as it grows with q everywhere."""

@@ -307,6 +307,51 @@ def test_that_parameters_may_forbid_a_case_is_said_where_it_is_not_seen() -> Non
         assert ("For which parameters this has solutions is not told here." in shown) == is_said
 
 
+SPRUNG_JOINTS = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+springs: [{of: q1, stiffness: k1}, {of: q2, stiffness: k2}]
+find: [equilibria]
+"""
+HELD_BY_TORQUE = """
+model:
+  coordinates: {t: revolute, s: revolute}
+  D: [[J, 0], [0, M]]
+  P: A*cos(t) + B*cos(t - s) + e*s*cos(t) + k*s^2/2 - T*t
+find: [equilibria]
+"""
+"""Along t the energy falls without end; without T it is periodic there."""
+CURVED = HELD_BY_TORQUE.replace("k*s^2/2 - T*t", "k*s^2*cos(t)/2")
+"""The stiffness is negative where cos t is."""
+
+
+@pytest.mark.parametrize(
+    ("problem", "is_there"),
+    [
+        (SPRUNG_JOINTS, True),
+        (SPRUNG_JOINTS.replace("of: q2", "of: q1 - q2"), True),
+        (
+            SPRUNG_JOINTS.replace(
+                "{of: q1, stiffness: k1}, {of: q2, stiffness: k2}", "{of: q1 + q2, stiffness: k}"
+            ),
+            None,
+        ),
+        (HELD_BY_TORQUE, False),
+        (HELD_BY_TORQUE.replace(" - T*t", " - T*s"), True),
+        (CURVED, False),
+    ],
+)
+def test_an_energy_that_grows_beyond_all_bounds_is_least_somewhere(
+    problem: str, is_there: bool | None
+) -> None:
+    """By hand: two springs whose deflections give both angles; one alone leaves a line without any."""
+    told = str(told_of(problem).outcome)
+    assert ("is least somewhere: this always has solutions" in told) is bool(is_there)
+    if is_there is not None:
+        assert ("is not told here" in told.split("How stable")[0]) is not is_there
+
+
 HANGING = """
 gravity: [0, -g, 0]
 dh: [{theta: q1*, a: l1}, {theta: q2*, alpha: 90deg}, {d: q3*}]
