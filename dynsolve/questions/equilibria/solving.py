@@ -19,7 +19,7 @@ Slotine, Li, Applied Nonlinear Control, section 3.1 (1991).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from itertools import permutations, product
@@ -103,6 +103,11 @@ class SpecialCase(Struct, frozen=True):
     is_of_rank: bool = False
     excluded: tuple[Alternative, ...] = ()
     needs: tuple[Expr, ...] = ()
+
+    @property
+    def is_possible(self) -> bool:
+        """Whether there may be an equilibrium."""
+        return self.forces is None or not any(force.is_number for force in self.forces)
 
     @property
     def is_known(self) -> bool:
@@ -255,12 +260,17 @@ class _Search:
         has_least = len(exist) == 1 and not (all(seen) or singular) and self._has_least(forces)
         if has_least:
             exist, seen = dict.fromkeys(exist, ()), [True]
+        inside = {one: without_ends(bounds, short, self.signs) for one, bounds in exist.items()}
         return Equilibria(
             rows=self.left,
             alternatives=tuple(exist),
             points=points,
-            exist=tuple(without_ends(bounds, short, self.signs) for bounds in exist.values()),
-            special=tuple(self._special_cases(short, settled)),
+            exist=tuple(inside.values()),
+            special=tuple(
+                case
+                for case in self._special_cases(short, settled)
+                if case.is_possible or not self._is_left_out(case.factor, inside.values())
+            ),
             may_be_others=special.is_open or self.of_rank.is_open or len(short) < len(special.factors),
             excluded=tuple(excluded.get(one, ()) for one in exist),
             is_whole=settled is None or settled.is_whole,
@@ -338,6 +348,10 @@ class _Search:
             and reached is not None
             and {*reached}.issubset(bounds)
         )
+
+    def _is_left_out(self, factor: Expr, exist: Collection[tuple[Bound, ...]]) -> bool:
+        """Whether in each case, by what the parameters must satisfy for it, a factor is not 0."""
+        return bool(exist) and not any(any(self.signs.beside(*one).open_factors(factor)) for one in exist)
 
     def _is_ordinary(self, factor: Expr, cases: Sequence[Alternative]) -> bool:
         """Whether the equations of the only case, too, say what the forces do where a factor is 0."""

@@ -1165,7 +1165,7 @@ find: [equilibria]
 
 
 def test_a_tip_that_just_reaches_its_wall_is_not_held() -> None:
-    """By hand: b = 2l leaves q₁ = q₂ = 0 alone, where A_c is 0 and the weight is not."""
+    """By hand: b = 2l leaves q₁ = q₂ = 0 alone, where A_c is 0 and the weight is not: 2l > b says it."""
     arm = """
 gravity: [0, -g, 0]
 dh: [{theta: q1*, a: l}, {theta: q2*, a: l}]
@@ -1174,8 +1174,8 @@ constraints: [tip.x - b]
 find: [equilibria]
 """
     told = read(arm)
-    assert "This has solutions where 2l > b." in told and "Where b = 2l, there is no equilibrium." in told
-    assert "may be dependent" not in told
+    assert "This has solutions where 2l > b." in told
+    assert not any(words in told for words in ("b ≠ 2l", "b = 2l", "may be dependent"))
 
 
 def test_that_coulomb_friction_holds_more_is_said() -> None:
