@@ -1243,6 +1243,8 @@ Along what the constraints leave free, the columns of {} with {}, the energy is 
   of the equilibrium.
 Where that is positive definite, the equilibrium is stable; where the energy falls in some direction, it is
   not.
+Where the energy is curved upwards along each of them, the equilibrium is stable; where it falls along one, it
+  is not.
 How stable <they|the others> are is not told here.
 All this is without Coulomb friction[, which can hold what is not stable].
 The same is so for special parameters.

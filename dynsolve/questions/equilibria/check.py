@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations, islice, product
 from math import radians
+from random import Random
 
 from msgspec import Struct
 
@@ -41,6 +42,7 @@ from dynsolve.robot.model import Robot
 _STEP = 1e-5
 _WIDE = 0.1
 _CURVE_STEPS = 10
+_NEARBY = 40
 _NEAR = 1e-6
 _NEWTON_STEPS = 60
 _TINY = 1e-12
@@ -179,9 +181,12 @@ def verify_equilibria(
         if found is not None and is_one and not _lies_in_any(robot, [*programs, *untold], found):
             raise VerificationError("an equilibrium is missing; this is a fault of dynsolve")
     whole = compile_trees([balanced, *([constraints] if constraints else [])])
+    allowed = compile_trees(
+        list(zeros[-len(constraints.rows) :] if isinstance(constraints, MatrixTree) else ())
+    )
     for program, case in zip(programs, cases, strict=True):
         for point in case.points:
-            _verify_stability(robot, whole, program, point)
+            _verify_stability(robot, whole, program, allowed, point)
 
 
 def verify_excluded(
@@ -236,7 +241,8 @@ def _is_minimum(point: Point, at: Mapping[str, float]) -> bool | None:
     return None if abs(least) < _TINY or (least > 0 and point.is_open) else least > 0
 
 
-def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Point) -> None:
+def _verify_stability(robot: Robot, forces: Program, zeros: Program, allowed: Program, point: Point) -> None:
+    """`allowed` are the constraints, which are 0."""
     wanted = [(angle, radians(degrees)) for angle, degrees in turned(point.values)]
     for start in starts(robot):
         for angle, size in wanted:
@@ -247,7 +253,8 @@ def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Poin
         if point.along is not None:
             _verify_along(robot, forces, point.along, at)
         told = _is_minimum(point, at)
-        if told is not None and _rises(robot, forces, at, point) is not told:
+        rises = _rises_around(robot, forces, allowed, at) if point.is_crossing else None
+        if told is not None and (_rises(robot, forces, at, point) if rises is None else rises) is not told:
             raise VerificationError("the stability told is another; this is a fault of dynsolve")
 
 
@@ -340,6 +347,24 @@ def _rises_on_curve(robot: Robot, program: Program, at: Mapping[str, float]) -> 
         return float(sum(x * force[0] for x, force in zip(ahead, program.run(q)[0], strict=True)))
 
     return pull(_WIDE / _CURVE_STEPS) > 0 > pull(-_WIDE / _CURVE_STEPS)
+
+
+def _rises_around(robot: Robot, program: Program, allowed: Program, at: Mapping[str, float]) -> bool | None:
+    """Whether the energy rises to all that is allowed near by; None where nothing is found there."""
+    random = Random(1)  # noqa: S311 - the same every time is wanted
+    names, rises = [q.name for q in robot.coordinates], list[bool]()
+    for _ in range(_NEARBY):
+        beside = {**at, **{name: at[name] + random.uniform(-_WIDE, _WIDE) for name in names}}
+        near = zero_near(robot, allowed, beside)
+        if near is None or not _WIDE / 4 < max(abs(near[name] - at[name]) for name in names) < 2 * _WIDE:
+            continue
+        steps = {name: near[name] - at[name] for name in names}
+        work = 0.0
+        for part, weight in ((0.0, 1.0), (0.5, 4.0), (1.0, 1.0)):  # Simpson's rule
+            g = program.run({**near, **{name: at[name] + part * steps[name] for name in names}})[0]
+            work += weight / 6 * sum(force[0] * steps[name] for force, name in zip(g, names, strict=True))
+        rises.append(work > 0)
+    return all(rises) if rises else None
 
 
 def _slopes(robot: Robot, program: Program, at: Mapping[str, float]) -> list[list[float]]:

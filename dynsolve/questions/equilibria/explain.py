@@ -511,7 +511,9 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
     lines: tuple[Line, ...] = ()
     if robot.questions.constraints and not steady:
         told, more = _of_constrained(told, all(found.points))
-        why = say(_CONSTRAINED_ENERGY, curved=_CURVED) if told else ()
+        meeting = [point.is_crossing for point, _ in told]
+        why = say(_CONSTRAINED_ENERGY, curved=_CURVED) if not all(meeting) else ()
+        why += (f"{' ' * bool(why)}{_MEETING}",) if any(meeting) else ()
         lines = tuple(line for point, place in told for line in _along(shown, point, place))
     else:
         curvature = context.show(linearization.curvature(robot, forces))
@@ -566,6 +568,11 @@ _CONSTRAINED_ENERGY = (
     "Along what the constraints leave free, the columns of $𝐙$ with $𝐀_c 𝐙 = 𝟎$, the energy is curved as "
     "{curved} is, with the $𝛌$ of the equilibrium. Where that is positive definite, the equilibrium is "
     "stable; where the energy falls in some direction, it is not."
+)
+_MEETING = (
+    "Smooth sets of configurations, each with a factor of the constraints that is 0, meet at such a point. "
+    "Where the energy is curved upwards along each of them, the equilibrium is stable; where it falls along "
+    "one, it is not."
 )
 _CURVED = formula("𝐙ᵀ (∂(𝐠 - 𝐀_cᵀ 𝛌)/∂𝐪) 𝐙")
 

@@ -53,6 +53,10 @@ class Unsolved(Exception):
     """Conditions are left that fix no coordinate."""
 
 
+Here = Callable[[Matrix], Matrix]
+"""What a matrix is at a configuration."""
+
+
 class Settled(Struct, frozen=True):
     """Alternatives, and of each the sets within it at which there are no multipliers.
 
@@ -96,7 +100,7 @@ class Along(Struct, frozen=True):
         return Matrix.of(self.free.ring, (flat[i : i + width] for i in range(0, len(flat), width)))
 
 
-def _over(matrix: Matrix, divisor: Expr, at: Callable[[Matrix], Matrix]) -> Matrix | FractionMatrix:
+def _over(matrix: Matrix, divisor: Expr, at: Here) -> Matrix | FractionMatrix:
     """A matrix over a divisor, both at a configuration."""
     ring = matrix.ring
     rows = at(Matrix.of(ring, [*matrix.rows, [divisor] * matrix.shape[1]])).rows
@@ -143,7 +147,7 @@ class Multipliers(Struct, frozen=True):
         """Whether an energy decides on stability: all n coordinates are free, all constraints functions."""
         return len(self.A.rows) == len(self.h) and self.A.shape[1] == n
 
-    def along(self, second: Matrix, at: Callable[[Matrix], Matrix]) -> Along | None:
+    def along(self, second: Matrix, at: Here) -> Along | None:
         """The second derivatives of P - λᵀ h along what A_c leaves free, `at` a configuration.
 
         None where the rows of A_c are dependent, or nothing is free.  `second` are those of P; `at` may
@@ -169,6 +173,24 @@ class Multipliers(Struct, frozen=True):
         scaled = Z.T @ total.scale(size) @ Z
         curved = _over(scaled, size * size * rows[-1][0], at)
         return Along(Z, _over(multipliers.T, size, at), curved, at(Matrix.of(ring, [[size * size]]))[0, 0])
+
+    def branches(self, at: Here) -> Iterator[Multipliers | None]:
+        """The same of each smooth set through a configuration of which h = 0 consists; None of any other.
+
+        Of the equations of a factor in half angles one whose derivatives are not 0 there is enough.
+        """
+        ring = self.A.ring
+        for choice in product(*map(halves, self.h)):
+            zeros = [factor for one in choice for factor in at(Matrix.column(ring, one)).entries]
+            if any(zero.is_number and not zero.is_zero for zero in zeros):
+                continue
+            slopes = [[(f, [ring.diff(f, k) for k in range(self.A.shape[1])]) for f in one] for one in choice]
+            moving = [[own for own in one if not at(Matrix.of(ring, [own[1]])).is_zero] for one in slopes]
+            if all(zero.is_zero for zero in zeros) and all(moving):
+                h, A = zip(*(own[0] for own in moving), strict=True)
+                yield Multipliers(Matrix.of(ring, A), self.g, h, Allowed(len(h)))
+            else:
+                yield None
 
     def zeros(self, rank: int) -> tuple[Expr, ...]:
         """What is 0 where the forces are held and A_c has this rank."""

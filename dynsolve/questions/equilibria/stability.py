@@ -44,7 +44,7 @@ from dynsolve.derivation.elimination import ParameterSigns, Turn, is_more, turn_
 from dynsolve.derivation.existence import DEGREES, Pose, conditions, rests, square_of
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, with_numbers
 from dynsolve.derivation.singular.zeros import Condition
-from dynsolve.questions.equilibria.multipliers import Along, Multipliers
+from dynsolve.questions.equilibria.multipliers import Along, Here, Multipliers
 
 MOST_SHOWN_TERMS = 12
 """Factors with more terms are not told."""
@@ -99,10 +99,6 @@ def by_coordinates(angle: Angle, names: Iterable[str]) -> tuple[Angle, Angle]:
     return angle - fixed, -fixed
 
 
-Here = Callable[[Matrix], Matrix]
-"""What a matrix is where something is known."""
-
-
 class Stability(StrEnum):
     """What second derivatives say of an equilibrium."""
 
@@ -139,7 +135,8 @@ class Point(Struct, frozen=True):
     stand in conditions where their values are not known; `is_open` says that it is not told where it is
     stable.  All this is so
     where the case is there and none of its bounds, `inside`, is an equality.  `along` is what constraints
-    leave of the second derivatives, and `higher` are those looked at where some of these are 0.
+    leaves of the second derivatives, and `higher` are those looked at where some of these are 0.  At a
+    point that `is_crossing` what constraints leave is several smooth sets.
     """
 
     values: Values
@@ -153,6 +150,7 @@ class Point(Struct, frozen=True):
     inside: tuple[Bound, ...] = ()
     along: Along | None = None
     higher: tuple[Higher, ...] = ()
+    is_crossing: bool = False
 
     @property
     def is_told(self) -> bool:
@@ -278,8 +276,9 @@ class Curvature(Struct, frozen=True):
             here = partial(_there, values=values, zeros=left)
             if self.held is not None:
                 along = self.held.along(self.second, here)
-                point = Point(values, Stability.UNDECIDED)
-                return point if along is None else self._held_point(values, along, signs, here)
+                if along is None:
+                    return self._where_curves_meet(values, signs, here)
+                return self._held_point(values, along, signs, here)
             point = whole(values, here(self.second), here)
             if point.stability is not Stability.UNDECIDED or not (higher := tuple(self._apart(here))):
                 return point
@@ -314,6 +313,24 @@ class Curvature(Struct, frozen=True):
         is_unstable = point.stability is Stability.UNSTABLE
         stability = Stability.UNSTABLE if is_unstable else Stability.UNDECIDED
         return replace(point, stability=stability, nonzero=nonzero)
+
+    def _where_curves_meet(self, values: Values, signs: ParameterSigns, here: Here) -> Point:
+        """The stability where the rows of A_c are dependent, if smooth sets of h = 0 meet there.
+
+        The energy is least there if it is along each of these; along one of them it may fall.
+        """
+        undecided, found = Point(values, Stability.UNDECIDED), set[Stability]()
+        for branch in self.held.branches(here) if self.held is not None else ():
+            along = None if branch is None else branch.along(self.second, here)
+            if branch is None or along is None:
+                return undecided
+            point = replace(self, held=branch)._held_point(values, along, signs, here)
+            is_told = not (point.conditions or point.nonzero or point.is_open)
+            found.add(point.stability if is_told else Stability.UNDECIDED)
+        if Stability.UNSTABLE in found or found == {Stability.STABLE}:
+            stability = Stability.UNSTABLE if Stability.UNSTABLE in found else Stability.STABLE
+            return replace(undecided, stability=stability, is_crossing=True)
+        return undecided
 
     def _apart(self, here: Here) -> Iterator[Higher]:
         """The coordinates of which the energy has a summand of its own, whose second derivative is 0."""

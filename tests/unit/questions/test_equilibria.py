@@ -307,6 +307,38 @@ def test_that_parameters_may_forbid_a_case_is_said_where_it_is_not_seen() -> Non
         assert ("For which parameters this has solutions is not told here." in shown) == is_said
 
 
+CROSSING = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: L}, {theta: q2*, a: L}]
+masses: [{mass: m, link: 1, center: midpoint}, {mass: m, link: 2, center: midpoint}]
+constraints: [tip.y]
+find: [equilibria]
+"""
+
+
+def test_where_curves_meet_the_energy_is_looked_at_along_each() -> None:
+    """By hand: s₁ + s₁₂ = 0 where q₂ = 180° or q₂ = -2q₁; along both curves P = m g L sin q₁."""
+    solution = dynsolve.solve(CROSSING)
+    (points,) = solution.to_json()["results"]["equilibria_stability"]
+    assert {point["q1"]: point["stability"] for point in points} == {"pi/2": "unstable", "-pi/2": "stable"}
+    (points,) = dynsolve.solve(CROSSING.replace("-g", "g")).to_json()["results"]["equilibria_stability"]
+    assert {point["q1"]: point["stability"] for point in points} == {"pi/2": "stable", "-pi/2": "unstable"}
+
+
+def test_the_check_would_see_another_stability_where_curves_meet() -> None:
+    solution = dynsolve.solve(CROSSING)
+    found = solution.values["equilibria"]
+    turned = {Stability.STABLE: Stability.UNSTABLE, Stability.UNSTABLE: Stability.STABLE}
+    points = tuple(replace(point, stability=turned[point.stability]) for point in found.points[0])
+    assert all(point.is_crossing for point in points)
+    forms = solution.forms
+    zeros = in_balance(forms, forms("g"))
+    shown = EquilibriaForms(solution.robot, solution.values)
+    case = Case(tuple(shown.equilibria[0]), points)
+    with pytest.raises(VerificationError, match="the stability told is another"):
+        verify_equilibria(solution.robot, forms("g"), zeros, [case], constraints=forms("Ac"))
+
+
 SPRUNG_JOINTS = """
 gravity: [0, -g, 0]
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
