@@ -34,12 +34,7 @@ from dynsolve.explain.working.identities import (
     pythagoras,
     said,
 )
-from dynsolve.explain.working.squares import (
-    along_axes,
-    turn_of_frame,
-    turned_name,
-    turning_line,
-)
+from dynsolve.explain.working.squares import along_axes, turn_of_frame, turned_name, turning_line
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import factors_of, number_in_front, times, total

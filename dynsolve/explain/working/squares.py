@@ -55,7 +55,16 @@ from dynsolve.explain.working.identities import (
 )
 from dynsolve.explain.writing import block_of, listed, sum_of
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, factors_of, negated, number_in_front, split_sign, times, total
+from dynsolve.notation.build import (
+    cost,
+    factors_of,
+    negated,
+    number_in_front,
+    split_sign,
+    summands,
+    times,
+    total,
+)
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ONE,
@@ -83,12 +92,17 @@ def written_velocity(context: Context, body: Body) -> tree.Matrix:
 
 
 def squared(context: Context, body: Body) -> Node:
-    """½ m vᵀ v with the entries of v put in; what these share stands before the squares, squared."""
+    """½ m vᵀ v with the entries of v put in; what these share stands before the squares, squared.
+
+    A sum of squares that is in the energy, too, stands in that order: ½ m (ẋ² + ẏ²), whatever axis is first.
+    """
     factor, value = _with_factor(context, body)
     form = context.show(value)
     assert isinstance(form, tree.Matrix)
     entries = [entry for (entry,) in _written(context, value, form).rows if entry != ZERO]
-    return _energy(context, body, sum_of([_square(entry) for entry in entries]), factor)
+    added = sum_of([_square(entry) for entry in entries])
+    orders = {frozenset(summands(one)): one for one in brackets(context.form(f"Kv{body.name}"))}
+    return _energy(context, body, orders.get(frozenset(summands(added)), added), factor)
 
 
 def _with_factor(context: Context, body: Body) -> tuple[Shared, Matrix]:

@@ -611,3 +611,9 @@ find: [D]
 def test_one_term_is_not_sorted() -> None:
     assert not any("sorted" in text or "collected" in text for text in lines(TURNING, "Kv1"))
     assert any("collected" in text for text in lines("planar-2r", "Kv2"))
+
+
+def test_the_squares_of_a_velocity_stand_in_the_order_of_its_energy() -> None:
+    """Of q̇₂ along x and q̇₁ along y, not m (q̇₂² + q̇₁²) and then the same in the other order."""
+    found = step("cartesian-pp", "Kv2")
+    assert list(map(to_unicode, found.working)) == list(map(to_unicode, found.result))
