@@ -26,15 +26,7 @@ from dynsolve.explain.writing import flat, is_small, listed, name_of, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import times, total
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import (
-    Derivative,
-    Letter,
-    Node,
-    Product,
-    Words,
-    column,
-    equation,
-)
+from dynsolve.notation.tree import Derivative, Letter, Node, Product, Words, column, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, BodyTurn, GivenModel
 
@@ -42,13 +34,14 @@ from dynsolve.robot.model import Body, BodyTurn, GivenModel
 def center_step(context: Context, body: Body) -> Step:
     """r_c, which the problem gives."""
     moves = any(map(context.robot.ring.depends_on_coordinates, body.center.entries))
+    center = factored(context, context.form(f"rc{body.name}"))
     how = " as a function of the coordinates." if moves else ": it does not move."
     return Step(
         id=f"rc{body.name}",
         title=f"Mass centre of {name_of(body)}",
         why=(f"The position is given{how}",),
-        result=(equation(letters.rc(body), factored(context, context.form(f"rc{body.name}"))),),
-        said="given position" if moves else "",
+        result=(equation(letters.rc(body), letters.bold("0") if body.center.is_zero else center),),
+        said=f"given position{how}",
         uses=(),
         detail=Detail.BRIEF,
     )

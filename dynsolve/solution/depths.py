@@ -37,7 +37,7 @@ from dynsolve.errors import attempted
 from dynsolve.explain.step import Detail, Group, Line, Part, Step
 from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import NAMED, Node, Relation, Row, equation, walk
+from dynsolve.notation.tree import NAMED, Letter, Node, Relation, Row, equation, walk
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.render.page import leads_on
 from dynsolve.render.terminal_boxes import TextBox, boxed, height, holds_matrix, pieces
@@ -395,7 +395,7 @@ def _parts(node: Node) -> list[Node]:
 
 
 def _listed(one: Formula | Equations, other: Formula, printer: UnicodePrinter) -> Equations | None:
-    """Equations of one line each one under another, a chain where two have the same left side."""
+    """Equations of one line each one under another, a chain where two have the same left side or value."""
     nodes = one.nodes if isinstance(one, Equations) else (one.node,)
     if (isinstance(one, Formula) and (one.source or one.entries)) or other.source or other.entries:
         return None
@@ -405,9 +405,21 @@ def _listed(one: Formula | Equations, other: Formula, printer: UnicodePrinter) -
     chain = _chain(nodes[-1], other.node)
     if chain is not None and not (isinstance(one, Formula) and one.label) and _cells(chain, printer) <= _ROOM:
         nodes = (*nodes[:-1], chain)
+    elif (alike := _alike(nodes[-1], other.node)) is not None:
+        nodes = (*nodes[:-1], alike)
     else:
         nodes = (*nodes, other.node)
     return Equations(nodes, label=labels[0] if labels else "", also=tuple(labels[1:]))
+
+
+def _alike(first: Node, second: Node) -> Relation | None:
+    """One letter of two bodies that has one value, r₁ = 0 and r₂ = 0, as r₁ = r₂ = 0."""
+    match first, second:
+        case Relation((*some, last)), Relation((Letter(base) as other, value)) if last == value:
+            same = all(isinstance(one, Letter) and one.base == base for one in some)
+            is_plain = same and {*first.signs, *second.signs} == {"="}
+            return equation(*some, other, value) if is_plain else None
+    return None
 
 
 def _cells(node: Node, printer: UnicodePrinter) -> int:

@@ -31,13 +31,7 @@ from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import side_by_side
 from dynsolve.notation import tree
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import (
-    Node,
-    Number,
-    Product,
-    Transpose,
-    equation,
-)
+from dynsolve.notation.tree import Node, Number, Product, Transpose, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, JointType

@@ -15,13 +15,7 @@ from dynsolve.explain.abbreviations import Abbreviated, as_shown
 from dynsolve.explain.christoffel import SLOPES, in_slopes
 from dynsolve.explain.context import Context
 from dynsolve.explain.differentiation import by_symbol, differentiated
-from dynsolve.explain.entry_formulas import (
-    QUADRATIC,
-    coriolis_matrix,
-    depends_on,
-    in_names_of_entries,
-    pairs,
-)
+from dynsolve.explain.entry_formulas import QUADRATIC, coriolis_matrix, depends_on, in_names_of_entries, pairs
 from dynsolve.explain.long_model.inertia_entry import worked_entry
 from dynsolve.explain.recurring import Definition, expanded, expanded_once, rewritten
 from dynsolve.explain.sanity.conserved import is_carried_along

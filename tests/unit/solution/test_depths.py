@@ -255,3 +255,25 @@ def test_a_heading_names_what_is_asked_for() -> None:
         assert any(
             isinstance(b, Heading) and b.text.endswith(f". {heading}") for b in blocks_of(text, Detail.NORMAL)
         )
+
+
+AT_REST = """
+model:
+  coordinates: {p: revolute}
+  bodies:
+    - {mass: m1, at: [0, 0, 0], turn: p, inertia: {zz: J1}}
+    - {mass: m2, at: [0, 0, 0], turn: 2*p, inertia: {zz: J2}}
+    - {mass: m3, at: [0, a, 0], turn: 3*p, inertia: {zz: J3}}
+"""
+
+
+@pytest.mark.parametrize("detail", [Detail.BRIEF, Detail.NORMAL])
+def test_bodies_of_which_the_same_is_said_have_one_line(detail: Detail) -> None:
+    text = page_of(AT_REST, detail)
+    assert text.count("The position is given") == (detail is Detail.NORMAL)
+    assert "𝐫_c1 = 𝐫_c2 = 𝟎" in text
+
+
+@pytest.mark.parametrize("detail", [Detail.BRIEF, Detail.NORMAL])
+def test_a_height_and_an_energy_that_are_0_stay_apart(detail: Detail) -> None:
+    assert "η₁ = P₁" not in page_of("cart-pole", detail)
