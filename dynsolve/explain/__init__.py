@@ -62,9 +62,7 @@ from dynsolve.quantities.stages import Stage
 
 __all__ = ["Detail", "Step", "explain"]
 
-_BESIDE = {
-    Stage.LAGRANGIAN: ("torque", "lagrangian_steps"),
-}
+_BESIDE = {Stage.LAGRANGIAN: ("torque", "lagrangian_steps")}
 """The stages that stand in the file of another, and their functions there."""
 
 _IN_LETTERS = {Stage.VECTORIZED: ("long_model.vectorized", "steps")}

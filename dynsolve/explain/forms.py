@@ -50,9 +50,11 @@ from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.geometry import Turn, parallel_groups, turned_otherwise
 from dynsolve.robot.model import Body, Convention, Robot
 from dynsolve.robot.typed_sums import deflection, printed_sums
+from dynsolve.robot.units import INERTIA, MASS
 
 LONG = 300
 """From this number of terms on a value is put together from parts."""
@@ -379,11 +381,18 @@ def _sandwich(left: tuple[Node, ...], tensor: tree.Matrix, right: tuple[Node, ..
 
 
 def leading_names(robot: Robot) -> list[str]:
-    """The masses or densities and then the moments of inertia, in the order of the bodies, rotors last."""
+    """The masses or densities and then the moments of inertia, in the order of the bodies, rotors last.
+
+    Of a model that is given they are what has these dimensions.
+    """
     masses = [name for body in robot.bodies for name in (*_linear_names(body.mass), *_of_density(body))]
     given = [body.inertia for body in robot.bodies if body.inertia is not None and body.shape is None]
     rotors = [name for motor in robot.actions.rotors for name in _linear_names(motor.inertia)]
     inertias = [name for tensor in given for entry in tensor.entries for name in _linear_names(entry)]
+    if robot.given is not None:
+        dimensions, parameters = Dimensions(robot.ring, robot), robot.ring.parameters
+        of = {name: dimensions.of(robot.ring.symbol(name)) for name in parameters}
+        masses, inertias = ([name for name in parameters if of[name] == each] for each in (MASS, INERTIA))
     return list(dict.fromkeys([*masses, *inertias, *rotors]))
 
 

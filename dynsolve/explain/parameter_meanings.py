@@ -584,12 +584,7 @@ SHAPES = {
     "shell": "thin spherical shell",
 }
 
-DIMENSIONS = {
-    "radius": "radius",
-    "length": "length",
-    "outer": "outer radius",
-    "inner": "inner radius",
-}
+DIMENSIONS = {"radius": "radius", "length": "length", "outer": "outer radius", "inner": "inner radius"}
 """Their dimensions, by their keys in a file; those of a box are its sides along the axes."""
 
 

@@ -179,7 +179,7 @@ gravity: [-g, 0, 0]
 model: {coordinates: {s: prismatic}, D: [[m]], P: "k*(s - l0)^2/2 - 3*m*W^2*s^2/8 - m*g*s/2"}
 find: [equilibria]
 """
-    assert "s = 2(g m + 2k l₀)/(4k - 3m W²)" in read(bead)
+    assert "s = 2(m g + 2k l₀)/(4k - 3m W²)" in read(bead)
     geared = ARM.replace("find:", "constraints: [q2 - n*q1]\nfind:")
     told = read(geared)
     assert "q₂ = n q₁" in told

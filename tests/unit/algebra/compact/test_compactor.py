@@ -469,3 +469,11 @@ def test_an_expression_of_another_ring_is_refused() -> None:
     )
     with pytest.raises(ValueError, match="another ring"):
         Compactor(other).form(one.sin(Angle.of("q2")))
+
+
+def test_of_a_given_model_masses_and_inertias_stand_first_by_their_dimensions() -> None:
+    energies = "K: m*x'^2/2 + (J + m*l^2)*a'^2/2, P: m*g*x + m*g*l*cos(a)"
+    problem = read_problem(f"model: {{coordinates: {{x: prismatic, a: revolute}}, {energies}}}\n")
+    forms = Forms(problem.robot, derive(problem.robot))
+    assert [to_unicode(forms(name)) for name in ("P", "dLdq2")] == ["m g (x + l cos(a))", "m g l sin(a)"]
+    assert to_unicode(forms.matrix("D").rows[1][1]) == "m l² + J"
