@@ -6,6 +6,7 @@ The stages that they belong to, `energy`, `torque` and `vectorized`, put them in
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import Any
 
 from msgspec.structs import replace
@@ -46,6 +47,14 @@ from dynsolve.robot.shapes import AXES
 def half_square(factor: Node, of: Node) -> Node:
     """½ factor of²"""
     return formula("½ {a} ({x})²" if isinstance(of, Sum) else "½ {a} {x}²", a=factor, x=of)
+
+
+def halved_square(context: Context, factor: Expr, of: Node) -> Node:
+    """The same as a result: of a whole number half of it, 2ẏ² of 4."""
+    if factor.is_number and factor.number.denominator == 1:
+        half, decimal = Fraction(factor.number) / 2, context.robot.has_decimals
+        return number_in_front(times(half, [(of, 2)], decimal=decimal and half.numerator != 1))
+    return half_square(context.show(factor), of)
 
 
 def _kinds(context: Context, term: type[Act]) -> list[tuple[Any, list[Any]]]:
@@ -101,7 +110,7 @@ def rotor_steps(context: Context) -> Iterator[Step]:
         turned = Sum((turned, Product((Transpose(letters.bold("z")), letters.bold("omega", Words("link"))))))
     turns = [(motor, *_turned(context, motor)) for motor in motors]
     energies = [
-        half_square(context.show(motor.inertia), total([spin, context.show(with_link)]))
+        halved_square(context, motor.inertia, total([spin, context.show(with_link)]))
         for motor, spin, with_link in turns
     ]
     is_sum = geared or carried

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dynsolve.acts.dampers.act import Damper
 from dynsolve.document import Prose
-from dynsolve.explain.actions import half_square
+from dynsolve.explain.actions import halved_square
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.writing import measured
@@ -20,4 +20,4 @@ def given(forms: Forms, damper: Damper) -> Prose:
 def dissipation(context: Context, damper: Damper) -> Node:
     """½ b ẋ²"""
     stretching = context.show(context.robot.ring.time_derivative(damper.of))
-    return half_square(context.show(damper.damping), stretching)
+    return halved_square(context, damper.damping, stretching)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dynsolve.acts.friction.act import JointFriction
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
-from dynsolve.explain.actions import half_square
+from dynsolve.explain.actions import halved_square
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.writing import listed, measured
@@ -55,4 +55,4 @@ def dissipation(context: Context, friction: JointFriction) -> Node | None:
     if friction.viscous.is_zero:
         return None
     rate = Symbol(context.robot.ring.names[friction.coordinate], 1)
-    return half_square(context.show(friction.viscous), rate)
+    return halved_square(context, friction.viscous, rate)

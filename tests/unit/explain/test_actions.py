@@ -132,6 +132,16 @@ springs: [{stiffness: 250, of: z, rest: 0.4}]
     assert to_unicode(forms("tau1")) == "0.5 z̈ + 4.905 + 250(z - 0.4)"
 
 
+@pytest.mark.parametrize(
+    ("friction", "function"),
+    [("4", "2q̇₁²"), ("3", "(3/2) q̇₁²"), ("1", "½ q̇₁²"), ("c", "½ c q̇₁²"), ("0.05", "½·0.05 q̇₁²")],
+)
+def test_half_of_a_whole_number_is_one_number(friction: str, function: str) -> None:
+    problem = f"dh: [{{theta: q1*, a: l}}]\nmasses: [{{mass: m, link: 1}}]\nfriction: {{q1: {friction}}}\n"
+    (found,) = step("friction", problem).working
+    assert shown(found, problem) == f"ℛ = {function}"
+
+
 def test_each_of_several_dampers_has_its_own_rate() -> None:
     """Not (b₁ + b) q̇₁ - b q̇₂: a damper is written as a spring is, before what has no rate."""
     row = "model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m1, at: [x, 0, 0]}, "
