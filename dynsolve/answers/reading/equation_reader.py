@@ -324,6 +324,9 @@ class EquationReader:
             value = read_right_side(self.vocabulary, members[-1], (QDD_FORWARD.name,))
             self.found.acceleration(row, Member(len(members) - 1, members[-1], value), origin)
             return True
+        name = "" if names else name_alone(self.vocabulary, members[0])
+        if name and len(members) == 3 and [token.text for token in members[-1]] == ["0"]:  # eq1 = ... = 0
+            members = members[1:]
         found = motion_equation(self.vocabulary, members)
         if found is not None:
             self.found.motion(found, [token for member in members for token in member], origin)

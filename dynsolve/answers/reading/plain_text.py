@@ -21,8 +21,12 @@ from collections.abc import Callable, Iterator
 from msgspec import Struct, field
 
 from dynsolve.answers.reading.grids import MAX_NESTING
+from dynsolve.answers.reading.left_side import LeftSide, NamedAnswers, UnknownSide, side_of
 from dynsolve.answers.reading.matrix_parts import rest_is_zero
+from dynsolve.answers.reading.report_text import is_of_one_case
+from dynsolve.answers.reading.set_text import AND, SO
 from dynsolve.answers.reading.sources import HIDDEN, levels
+from dynsolve.answers.reading.vocabulary import Vocabulary
 
 _BRACKETS = {"[": ("[", "]"), "(": ("(", ")"), **dict.fromkeys("/\\|", ("/\\|", "/\\|"))}
 _BRACKETS |= dict.fromkeys("⎛⎜⎝⎡⎢⎣", ("⎛⎜⎝⎡⎢⎣", "⎞⎟⎠⎤⎥⎦"))
@@ -314,8 +318,8 @@ class _Picture(Struct):
 _LINE_HEAD = r"[ \t]*[^\s=:][^=:\n]{0,40}[ \t]*(?::=|[=:])[ \t]*"
 _COUNTED = r"(?:[0-9]{1,2}(?:\.[0-9]{1,2}){0,2}[a-z]?|[A-Za-z](?:\.[0-9]{1,2})?|[ivx]{2,4})"
 _LEAD = re.compile(
-    r"[ \t]*(?:\(%[io][0-9]{1,4}\)[ \t]*|>>>?[ \t]+|[-*+•>][ \t]+)?"
-    rf"(?:\({_COUNTED}\.?\)[ \t]+|\([0-9.]{{1,6}}\)|{_COUNTED}[.)][ \t]+"
+    r"[ \t]*(?:\(%[io][0-9]{1,4}\)[ \t]*|[-=>]{0,2}>[ \t]+|[-*+•][ \t]+)?"
+    rf"(?:\({_COUNTED}\.?\)[ \t]+|\([0-9.]{{1,6}}\)|(?:{_COUNTED}|[A-Za-z]{{1,2}}[0-9])[.)][ \t]+"
     r"|[0-9]{1,2}\.[0-9]{1,2}[ \t]+(?=[A-Za-z\\]))?"
     r"(?:(?:[Ll]et|[Ss]ei|[Ll]a|[Ww]here|[Ww]ith|[Ww]obei|[Mm]it|[Mm]ed|[Dd]er|[Hh]vor)[ \t]+"
     r"(?=[^\s=]{1,20}[ \t]*=))?"
@@ -326,18 +330,26 @@ _EQUATION = re.compile(r"[^\n=]{1,5000}=")
 _CALLED = re.compile(r"[ \t]*(?:>>>[ \t]+)?Eq\((?P<sides>[^\n=]{3,9999})\)[ \t]*\Z")
 """SymPy's `Eq(a, b)` of a whole line."""
 
-_ITEM = re.compile(r"[-*+][ \t]+[^=]{1,60}=|[-*+][ \t]+[^\s:]{1,40}:[ \t]")
-"""The next item of a list, which is no term of the equation above."""
+_ITEM = re.compile(r"[-=>]{0,2}>[ \t]|[-*+][ \t]+[^=]{1,60}=|[-*+][ \t]+[^\s:]{1,40}:[ \t]")
+"""The next item of a list, or what an arrow leads to: no term of the equation above."""
 
 _NAMED = re.compile(r"([^\s:=|$]{1,40})[ \t]?:[ \t]+(?=\S)")
 _TERMINATOR = re.compile(r"\$[ \t]*\Z")
 """The sign that ends a line of Maxima without showing its value."""
 
-_SAID = re.compile(r"[^\n=$]{1,150}:[ \t]+(?=[^\s:=]{1,40}[ \t]*=)")
+_SAID = re.compile(r"[^\n=$]{1,150}:[ \t]+(?=[^\n=]{1,5000}=)")
+"""A label before an equation, in which no colon can stand: `Energy: K = ...`, `For r: m r'' + ... = 0`."""
+
 _WORDS = re.compile(
     rf"(?:[^\W\d_]{{2,30}}[,.]?[ \t]+){{1,20}}(?:{_COUNTED}[.)][ \t]+)?(?=[^\s:=]{{1,40}}[ \t]*=)"
 )
 """The words of a sentence before an equation: `The potential energy P = ...`."""
+
+_NAME_ALONE = re.compile(r"[^\s:=]{1,40}[ \t]*=")
+_LEADS = re.compile(rf"(?:{SO}|{AND})[,:]?[ \t]+", re.IGNORECASE)
+_A_WORD = re.compile(r"[^\W\d_]{2,30}[,:]?[ \t]+")
+_FORMULA = re.compile(r"(?![=*/^,;:)])[^\n=]*?[-+*/^('\u0307\u0308][^\n=]*=")
+"""How an equation goes on whose left side is more than a name: not with a sign that joins it to a word."""
 
 _SPOKEN = re.compile(
     r"(?:(?:the|total|die|gesamte|den|totale?)[ \t]+)*(?:"
@@ -352,7 +364,7 @@ _SPOKEN = re.compile(
 """The name of an answer in words, before a formula: `Kinetic energy = ...`, `Potensiell energi: ...`."""
 
 _SIGN = re.compile("[=:]")
-_SIGN_BELOW = re.compile(r"\n[ \t]*=(?!=)")
+_SIGN_BELOW = re.compile(r"\n[ \t]*=(?![=>])")
 """The next line begins with the sign of the equation: `K1` stands alone on this one."""
 
 _AND = re.compile(
@@ -379,15 +391,37 @@ _PARAGRAPH = re.compile(
 )
 """Lines below each other, which may draw one formula; a name and its sign may stand above them alone."""
 
+_MOST_HEADS = 2_000
+"""So many different beginnings of lines are looked at."""
+
 _POWERS = re.compile(r"[ \t]{2,}[0-9][0-9 \t]*")
 _RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 _TRAILING = frozenset("=+-*/,([{&\\")
 _LEADING = frozenset("=+-*/)][")
 
 
-def plain_lines(
-    text: str, start: int, end: int, names_answer: Callable[[str], bool]
-) -> Iterator[tuple[int, str]]:
+class AnswerNames:
+    """Says of the beginning of a line whether it names an answer."""
+
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        self._vocabulary = vocabulary
+        self._coordinates = {q.name for q in vocabulary.coordinates}
+        self._heads = set[str]()
+
+    def __call__(self, head: str) -> bool:
+        """Whether it is the name of an answer, and no coordinate."""
+        return isinstance(self._side(head), NamedAnswers) and head not in self._coordinates
+
+    def is_unknown(self, word: str) -> bool:
+        """Whether a word is no name of the problem."""
+        return isinstance(self._side(word), UnknownSide)
+
+    def _side(self, head: str) -> LeftSide:
+        self._heads.add(head)
+        return side_of(self._vocabulary, head) if len(self._heads) <= _MOST_HEADS else None
+
+
+def plain_lines(text: str, start: int, end: int, names_answer: AnswerNames) -> Iterator[tuple[int, str]]:
     """The equations between two offsets: each with its own, and its text, which has the length it had."""
     position, begins = start, True
     while position < end:
@@ -419,7 +453,7 @@ def _with_sign(sides: str) -> str:
     return f"{sides[:at]}={sides[at + 1 :]}"
 
 
-def _begins(text: str, start: int, stop: int, names_answer: Callable[[str], bool]) -> int:
+def _begins(text: str, start: int, stop: int, names_answer: AnswerNames) -> int:
     """Where the equation of a line begins, behind a list's mark or `Potential energy: `; -1 without one."""
     if text.find(HIDDEN, start, stop) >= 0:
         return -1
@@ -432,12 +466,23 @@ def _begins(text: str, start: int, stop: int, names_answer: Callable[[str], bool
     if not _EQUATION.match(text, first, stop):
         return first if _SIGN_BELOW.match(text, stop) and names_answer(text[first:stop].strip()) else -1
     said = _SAID.match(text, first, stop)
-    first = said.end() if said else first
+    if said and (_NAME_ALONE.match(text, said.end(), stop) or not is_of_one_case(said[0])):
+        first = said.end()
     words = _WORDS.match(text, first, stop)
     heads = [text[at : text.index("=", at)].strip() for at in (first, words.end() if words else first)]
     if words is not None and names_answer(heads[1]) and not names_answer(heads[0]):  # `det J = ...`
         return words.end()
-    return first
+    return _behind_words(text, first, stop, names_answer.is_unknown)
+
+
+def _behind_words(text: str, start: int, stop: int, is_unknown: Callable[[str], bool]) -> int:
+    """Where a formula begins behind words that cannot: `Hence (M + m) x'' = F`, `We get (M + m) x'' = F`."""
+    leads = _LEADS.match(text, start, stop)
+    first, words = (leads.end(), 2) if leads else (start, 0)
+    while (word := _A_WORD.match(text, first, stop)) and is_unknown(word[0].strip(" \t,:")):
+        first, words = word.end(), words + 1
+    is_led = words > 1 and _FORMULA.match(text, first, stop) and not is_of_one_case(text[start:first])
+    return first if is_led else start
 
 
 def _letter(spoken: re.Match[str]) -> str:

@@ -191,7 +191,7 @@ _ONE_CASE = _words(
     r"|\bhorizontal position"
     r"|\bstatic(?:ally)?\b|\bstatisch\w*|\bstatisk\b|\b(?:hold|stand)\w* still\b|\bstillst\w+"
     r"|\bnothing moves\b|\bnichts bewegt\b|\bingenting beveger\b"
-    r"|\bat rest\b|\bin ruhe\b|\bi ro\b|\blinearis|\bcheck\b|\bprobe\b|\bkontroll\b"
+    r"|\bat rest\b|\bin ruhe\b|\bi ro\b|\blineari[sz]|\bcheck\b|\bprobe\b|\bkontroll\b"
     rf"|(?<!\bby )(?<!\bdurch )(?<!\bved )\b(?:compar|vergleich|sammenlign)(?!\w*{_OF_EQUATION})"
     r"|\bwould\b|\bwürden?\b|\bwären?\b|\bville\b|\bcontributes?\b|\bwithout\b|\bohne\b|\buten\b",
     r"\b(?:for|at|if|when|bei|für|wenn|falls|ved|når|hvis)\b[^$:]{0,40}\$[^$=]{1,60}(?:=[^$=]{1,60})+\$",
@@ -242,6 +242,15 @@ _FAR, _NEAR = 300, 60
 """How far back a sentence is looked at, and how far for what stands right before a formula."""
 
 _WORD = re.compile(r"[^\W\d_]{2}")
+
+
+_CONDITIONS = _words(rf"\b(?:(?!for\b|für\b)(?:{_IF})|{_NEEDS})\b", r"\bf(?:o|ü)r (?:small|kleine|små)\b")
+"""Words before a formula without which it does not hold."""
+
+
+def is_of_one_case(words: str) -> bool:
+    """Whether words before an equation say that it may hold in one case alone."""
+    return bool(_ONE_CASE.search(words) or _CONDITIONS.search(words))
 
 
 def said_of(text: str, start: int, end: int, is_coordinate: Callable[[str], bool]) -> str:

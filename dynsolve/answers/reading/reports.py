@@ -19,10 +19,9 @@ from dynsolve.answers.reading.displayed_sets import DisplayedSets, headed_sets, 
 from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.grids import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
-from dynsolve.answers.reading.left_side import NamedAnswers, side_of
 from dynsolve.answers.reading.lexer import Macro, Token, closing_brace, tokenize
 from dynsolve.answers.reading.matrix_parts import said_zero, shown
-from dynsolve.answers.reading.plain_text import plain_lines
+from dynsolve.answers.reading.plain_text import AnswerNames, plain_lines
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.report_text import IN_SENTENCE, is_of_case, said_of, taken_from, visible
 from dynsolve.answers.reading.sources import HIDDEN, Source, hidden
@@ -46,9 +45,6 @@ _MACRO = re.compile(
     r"|\\(?P<bare>[A-Za-z]{1,60}))\s{0,20}(?:\[(?P<count>[0-9])\])?\s{0,20}(?=\{)"
     r"|\\def\s{0,20}\\(?P<defined>[A-Za-z]{1,60})(?P<hash>#1)?\s{0,20}(?=\{)"
 )
-_MOST_HEADS = 2_000
-"""So many different beginnings of lines in plain text are looked at."""
-
 _MAYBE_LABEL = re.compile(r"[\s~]*[(\\]")
 _BLANK_LINE = re.compile(r"\n[ \t]*\n")
 _SAYS = re.compile(
@@ -86,10 +82,6 @@ _MARGIN = 400
 """So far from an equation it is seen whether it stands alone on its line."""
 
 
-NamesAnswer = Callable[[str], bool]
-"""Whether the beginning of a line is the name of an answer."""
-
-
 class MacroDefinition(Struct, frozen=True):
     """A macro with the offset from which it holds."""
 
@@ -109,7 +101,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
         verdicts, text = spoken_verdicts(reader.vocabulary.candidates, source, text)
     headed = headed_sets(text, reader)
     text = hidden(text, ((one.start, one.end) for one in headed))
-    names_answer = _answer_names(reader)
+    names_answer = AnswerNames(reader.vocabulary)
     columns = list[tuple[int, Display]]()
     if not latex:
         text, columns = headed_columns(text, source, names_answer)
@@ -202,7 +194,7 @@ def _body(text: str) -> list[Token]:
 
 
 def _displays(
-    text: str, source: Source, names_answer: NamesAnswer, is_coordinate: NamesAnswer
+    text: str, source: Source, names_answer: AnswerNames, is_coordinate: Callable[[str], bool]
 ) -> Iterator[tuple[int, int, Display | None]]:
     """The displayed equations of a text with their spans; a span without one is a formula in a sentence."""
     position = 0
@@ -256,7 +248,7 @@ def _displays(
 
 
 def _said_to_be(
-    text: str, source: Source, opening: int, start: int, end: int, names_answer: NamesAnswer
+    text: str, source: Source, opening: int, start: int, end: int, names_answer: AnswerNames
 ) -> Display | None:
     """What a formula is said to be: `where h is $-m_2 l_1$` is h = -m_2 l_1, `P: $m g l$` is P = m g l.
 
@@ -309,23 +301,12 @@ def _display(text: str, source: Source, start: int, end: int, label: str, plain:
 
 
 def _plain(
-    text: str, source: Source, start: int, end: int, names_answer: NamesAnswer, among_others: bool
+    text: str, source: Source, start: int, end: int, names_answer: AnswerNames, among_others: bool
 ) -> Iterator[tuple[int, Display]]:
     """Equations in plain text; beside displayed ones a line that cannot be read may be a sentence."""
     for at, formula in plain_lines(text, start, end, names_answer):
         display = _display(text, source, at, at + len(formula), "", plain=True)
         yield at, replace(display, text=formula, among_prose=among_others)
-
-
-def _answer_names(reader: EquationReader) -> NamesAnswer:
-    """Says of the beginning of a line whether it is the name of an answer."""
-    heads = set[str]()
-
-    def names_answer(head: str) -> bool:
-        heads.add(head)
-        return len(heads) <= _MOST_HEADS and isinstance(side_of(reader.vocabulary, head), NamedAnswers)
-
-    return names_answer
 
 
 def _labelled(displays: list[tuple[int, Display]]) -> list[tuple[int, Display]]:

@@ -75,6 +75,29 @@ def test_a_model_of_several_vectors_is_one_of_all_forces() -> None:
     assert [answer.name for answer in report(f"$${model}$$", stem="crane").answers] == ["D", "g", "tau"]
 
 
+@pytest.mark.parametrize("before", [
+    "For q1: ", "q1: ", "Eq. 1: ", "Equation of motion: ", "Cart: ", "E1) ", "=> ", "==> ", "-> ",
+    "Hence ", "Thus, ", "and ", "Daraus folgt ", "We get ", "Finally we get ",
+])  # fmt: skip
+def test_words_before_an_equation_in_plain_text_are_no_part_of_it(before: str) -> None:
+    first, second = "(m+mp) q1'' - mp dp q2'^2 sin(q2)", "mp dp q2''"
+    found = report(f"{before}{first} = F\n{before}{second} = 0\n", "a.txt", stem="crane")
+    read = [f"{answer.name}: {shown(answer)}" for answer in found.answers]
+    assert read == ["f1: (m + m_p) q̈₁ - m_p d_p q̇₂² sin(q₂)", "tau2: m_p d_p q̈₂"]
+
+
+def test_the_number_of_an_equation_that_is_zero_is_no_force() -> None:
+    (answer,) = report("eq2 = mp dp q2'' = 0", "a.txt", stem="crane").answers
+    assert (answer.name, shown(answer)) == ("tau2", "m_p d_p q̈₂")
+
+
+@pytest.mark.parametrize("before", [
+    "For small angles we get ", "If we assume ", "Linearized: ", "Check at rest: ", "Jtot ", "Jtot*",
+])  # fmt: skip
+def test_an_equation_of_one_case_and_one_of_an_unknown_letter_are_not_read(before: str) -> None:
+    assert all(one.fault for one in report(f"{before}(m+mp) q1'' = F\n", "a.txt", stem="crane").answers)
+
+
 @pytest.mark.parametrize(
     ("sentence", "expected"),
     [
