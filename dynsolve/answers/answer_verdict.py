@@ -40,6 +40,7 @@ from dynsolve.answers.verdict import (
     worst,
 )
 from dynsolve.derivation.graph import Derivation
+from dynsolve.errors import attempted
 from dynsolve.problem.model import Problem
 from dynsolve.quantities.letters import key
 from dynsolve.questions.definite.derive import Definiteness
@@ -189,7 +190,12 @@ class AnswerJudge:
                 for entry, (_, i, j) in zip(entries, _entries(base.name, compared), strict=True)
                 if entry.verdict is Verdict.WRONG
             ]
-            found = self.diagnoser.matrices(wrong, compared, found)
+            of_entries = found
+            found = attempted(
+                lambda: self.diagnoser.matrices(wrong, compared, of_entries),
+                lambda: of_entries,
+                f"what is said of {base.name}",
+            )
         elif verdict is Verdict.FOLLOWS:
             used = (name for entry in entries for name in entry.follows_from)
             sources = in_order(self.hand_in.graph, used)
@@ -210,9 +216,16 @@ class AnswerJudge:
         if source is not None:
             follows_from = in_order(self.hand_in.graph, source.used)
             return EntryVerdict(index, Verdict.FOLLOWS, follows_from=follows_from)
-        wrong = self._wrong_entry(name, compared, i, j)
-        told = self.diagnoser.of_coriolis(wrong, compared) if name == "C" else self.diagnoser(wrong)
-        return EntryVerdict(index, Verdict.WRONG, told, difference=self.diagnoser.difference(wrong))
+        plain = EntryVerdict(index, Verdict.WRONG)
+        return attempted(
+            lambda: self._diagnosed(plain, self._wrong_entry(name, compared, i, j), compared),
+            lambda: plain,
+            f"what is said of {name}",
+        )
+
+    def _diagnosed(self, base: EntryVerdict, wrong: WrongEntry, compared: KeyComparison) -> EntryVerdict:
+        told = self.diagnoser.of_coriolis(wrong, compared) if wrong.name == "C" else self.diagnoser(wrong)
+        return replace(base, diagnosis=told, difference=self.diagnoser.difference(wrong))
 
     def _wrong_entry(self, name: str, compared: KeyComparison, i: int, j: int) -> WrongEntry:
         key = self.hand_in.compare.key(compared.target)

@@ -148,7 +148,7 @@ class Diagnoser:
     def __call__(self, wrong: WrongEntry) -> tuple[Diagnosis, ...]:
         """The slips in one scalar."""
         mine = wrong.mine
-        if not all(isinstance(value, Expr) for value in wrong.expected):
+        if wrong.is_of_fractions:
             return tuple(self._of_fractions(wrong))
         if mine is None or not is_small(mine):
             return ()
@@ -184,8 +184,10 @@ class Diagnoser:
         """The nearest value that the answer may be compared with: one whose terms can be added.
 
         Where it has more of the key's terms than of that value's, and most of them, it was
-        not taken from the student's own inputs, and is compared with the key.
+        not taken from the student's own inputs, and is compared with the key.  Of fractions the nearest.
         """
+        if wrong.is_of_fractions:
+            return wrong.expected[0]
         nearest, key = self.dimension_check.first_that_fits(wrong), wrong.expected[-1]
         mine = wrong.mine
         if mine is not None and nearest is not key:
@@ -414,7 +416,7 @@ class Diagnoser:
     def difference(self, wrong: WrongEntry) -> Node | None:
         """The answer minus what was expected, in compact form."""
         mine = wrong.mine
-        if mine is None or not all(isinstance(value, Expr) for value in wrong.expected):
+        if mine is None or wrong.is_of_fractions:
             return None
         difference = mine - self.expected(wrong)
         return self.words.form(difference) if is_small(difference) else None

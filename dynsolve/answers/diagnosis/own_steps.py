@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
-from dynsolve.algebra.fraction import as_expr
+from dynsolve.algebra.fraction import as_expr, equal
+from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
 from dynsolve.answers.diagnosis.exchanges import multiplied, ratio_of
-from dynsolve.answers.diagnosis.mends import Redoing
 from dynsolve.answers.diagnosis.slips import SLIPS, slip
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.diagnosis.wrong_entry import TermWriter, WrongEntry
@@ -237,10 +237,9 @@ class MatrixDiagnoser:
 
         `wrong` are its entries that are wrong; each must be mended by it.
         """
-        mine = [[as_expr(w.value) for w in row] for row in compared.rows]
-        if len(mine) * len(mine[0]) == 1 or any(e is None for row in mine for e in row):
+        given = self._given(compared)
+        if given.shape == (1, 1):
             return found
-        given = Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
         if all(entry.is_zero for entry in given.entries):
             codes = {d.code for d in found}
             is_one = codes in ({"zero"}, {"gravity_missing"})
@@ -249,12 +248,18 @@ class MatrixDiagnoser:
             return (slip("transposed"),)
         is_shown = any(entry.mine is None or not entry.mine.is_zero for entry in wrong)
         for value, right, diagnosis in self._of_matrix(given, wrong[0], is_shown, _is_explained(found)):
-            if value == given and all(self._is_mended(entry, value, right) for entry in wrong):
+            if value == given and all(self._is_mended(entry, right) for entry in wrong):
                 return (diagnosis, *(d for d in found if d.code == "dimensions"))
         return found
 
+    def _given(self, compared: KeyComparison) -> Matrix | FractionMatrix:
+        mine = [[as_expr(w.value) for w in row] for row in compared.rows]
+        if any(e is None for row in mine for e in row):
+            return FractionMatrix(self.ring, tuple(tuple(w.value for w in row) for row in compared.rows))
+        return Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
+
     def _of_matrix(
-        self, given: Matrix, wrong: WrongEntry, is_shown: bool, is_explained: bool
+        self, given: Matrix | FractionMatrix, wrong: WrongEntry, is_shown: bool, is_explained: bool
     ) -> Iterator[tuple[Any, Any, Diagnosis]]:
         """What a matrix is under a slip, what it is without, and the slip.
 
@@ -272,15 +277,13 @@ class MatrixDiagnoser:
             if is_nearer and self.steps.fits_the_rest(target.node, changed):
                 yield target.of(value), key, diagnosis
 
-    def _is_mended(self, entry: WrongEntry, value: Any, right: Any) -> bool:
-        """Whether a slip of the whole matrix explains one of its entries."""
-        mine, wrong = entry.mine, value[entry.row, entry.column]
-        redoing = Redoing(wrong, right[entry.row, entry.column])
-        return mine is not None and redoing.applied(mine) == self.expected(entry)
+    def _is_mended(self, entry: WrongEntry, right: Any) -> bool:
+        """Whether the step done right gives what is expected of an entry, which may be a fraction."""
+        return equal(fraction_of(right[entry.row, entry.column]), fraction_of(self.expected(entry)))
 
-    def _multiplied(self, given: Matrix, right: Any) -> Iterator[tuple[Any, Any, Diagnosis]]:
+    def _multiplied(self, given: Matrix | FractionMatrix, right: Any) -> Iterator[tuple[Any, Any, Diagnosis]]:
         """One number for all of it."""
-        if isinstance(right, Matrix) and right.shape == given.shape:
+        if isinstance(right, Matrix) and isinstance(given, Matrix) and right.shape == given.shape:
             pairs = zip(given.entries, right.entries, strict=True)
             ratio = next((ratio_of(*pair) for pair in pairs if not pair[1].is_zero), None)
             if ratio is not None:

@@ -215,6 +215,11 @@ class WrongEntry(Struct, frozen=True):
         """The answer as an element of the ring."""
         return as_expr(self.written.value)
 
+    @property
+    def is_of_fractions(self) -> bool:
+        """Whether a value that is expected is no element of the ring."""
+        return not all(isinstance(value, Expr) for value in self.expected)
+
     def at(self, value: Any) -> Expr | None:
         """What a value of the node has at the place of this scalar, None where it has no such place."""
         found = self.target.of(value)

@@ -7,8 +7,11 @@ import random
 import pytest
 
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.mends import parts
+from dynsolve.answers.diagnosis.own_steps import DerivationSlips, MatrixDiagnoser
 from dynsolve.answers.verdict import Answer, Place, Submission
+from dynsolve.errors import ExplanationWarning
 from tests.unit.answers.hands import Text, checker, codes, judge, judged
 from tests.unit.answers.test_generated import forms, graph
 
@@ -228,3 +231,43 @@ find: [C]
 """
     C = [["0", "b*sin(q1 - q2)*q1_dot"], ["-b*sin(q1 - q2)*q2_dot", "0"]]
     assert [d.message.count("belongs") for d in judged(twin, "C", C).diagnosis] == [1, 1]
+
+
+ROLLING = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, gamma: revolute}
+  bodies:
+    - {mass: M, at: [x, 0, 0], turn: -x/R, about: [0, 0, 1], inertia: {zz: M*R^2/2}}
+    - {mass: m, at: [x + l*sin(gamma), -l*cos(gamma), 0]}
+passive: [gamma]
+linearize: {x: 0, gamma: 0}
+find: [D, qdd_forward, linear_A, linear_B]
+"""
+
+
+@pytest.mark.parametrize("name", ["qdd_forward", "linear_A", "linear_B"])
+def test_fractions_that_a_slip_leads_to_are_told_of_it(name: str) -> None:
+    """M x for 3/2 M x: without the turning of the disk, and all that the other slips lead to."""
+    found = set()
+    right = graph(ROLLING).key(name)
+    for value, told, _ in DerivationSlips(graph(ROLLING)).values(name):
+        written = Answer(name, "", forms(ROLLING).of(value), Place(1, 1), name)
+        report = checker(ROLLING)(Submission("", "", "", (written,)))
+        answer = next(a for a in report.answers if a.name == name)
+        assert str(answer.verdict) == ("correct" if value == right else "wrong"), told
+        found |= set(codes(answer))
+    assert "rotation_missing" in found
+
+
+@pytest.mark.filterwarnings("always")
+def test_a_diagnosis_that_fails_takes_no_verdict_away(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*_: object) -> None:
+        raise RuntimeError
+
+    monkeypatch.setattr(Diagnoser, "__call__", fails)
+    monkeypatch.setattr(MatrixDiagnoser, "__call__", fails)
+    with pytest.warns(ExplanationWarning, match="D is left out: RuntimeError"):
+        report = judge(ELBOW, {"D": [["m1", "0"], ["0", "m2*lc2^2 + I2"]], "P": "0"})
+    found = {a.name: (str(a.verdict), a.diagnosis) for a in report.answers if a.given}
+    assert found == {"D": ("wrong", ()), "P": ("wrong", ())}
