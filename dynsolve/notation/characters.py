@@ -151,7 +151,7 @@ def _remedy(character: str) -> str:
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _GROUP = re.compile(r"[A-Za-z]*[0-9]+|[A-Za-z]+")
 _LETTERS = re.compile(r"[A-Za-z]+")
-_THETA = re.compile(r"th(?![A-Za-z])")
+_THETA = re.compile(r"th(?![A-Za-z]{2}|[A-Z])")
 _INERTIA = re.compile(r"[IJ](?=[xyz]{2})")
 _WORD_LENGTH = 4
 _ASCII = SPELLED | {digit: str(value) for value, digit in enumerate(SUBSCRIPT_DIGITS)}
@@ -199,11 +199,12 @@ def _no_name(name: str) -> ReadError:
 def split(name: str) -> tuple[str, tuple[str, ...]]:
     """The base of a name and its groups of indices, as they are set on paper.
 
-    The base is a letter, a spelled-out Greek letter, th for theta, or a word of four letters or
-    more.  A new group of indices begins at an underscore and at a letter after a digit.
+    The base is a letter, a spelled-out Greek letter, th for theta, with an index of one letter at most, or
+    a word of four letters or more.  A new group of indices begins at an underscore and at a letter after a
+    digit.
 
-    >>> split("I1zz"), split("lc1"), split("th1"), split("load")
-    (('I', ('1', 'zz')), ('l', ('c1',)), ('theta', ('1',)), ('load', ()))
+    >>> split("I1zz"), split("lc1"), split("thm1"), split("load")
+    (('I', ('1', 'zz')), ('l', ('c1',)), ('theta', ('m1',)), ('load', ()))
     """
     if _THETA.match(name):
         name = name.replace("th", "theta", 1)
