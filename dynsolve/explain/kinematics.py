@@ -264,14 +264,14 @@ def _are_multiplied(robot: Robot, joints: Sequence[Joint]) -> bool:
 
 def _frame(context: Context, i: int) -> Step:
     robot, has_base = context.robot, letters.has_base(context.robot)
-    last, start = i == len(robot.joints), robot.joints[i - 1].parent
+    last, is_end, start = i == len(robot.joints), not robot.links_after(i), robot.joints[i - 1].parent
     name, H = letters.H(robot, i), context.form(f"H{i}")
     step = Step(
         id=f"H{i}",
         title=f"Frame {i} seen from the {context.ground}",
         source=context.by_convention("3.1", "3.5"),
         result=(equation(name, H),),
-        detail=Detail.BRIEF if last else Detail.NORMAL,
+        detail=Detail.BRIEF if is_end else Detail.NORMAL,
     )
     if start == 0 and not has_base:
         return replace(
@@ -281,7 +281,7 @@ def _frame(context: Context, i: int) -> Step:
                 "is needed.",
             ),
             result=(equation(name, letters.A(i), H),),
-            detail=Detail.BRIEF if last else Detail.FULL,
+            detail=Detail.BRIEF if is_end else Detail.FULL,
         )
     chain: list[Node] = [letters.A(joint.index) for joint in robot.path(i)]
     if has_base:
@@ -309,7 +309,7 @@ def _frame(context: Context, i: int) -> Step:
     return replace(
         step,
         why=_last_why(context) if last else OUTWARDS,
-        formula=equation(name, Product(tuple(chain))) if last or len(chain) > 2 else None,
+        formula=equation(name, Product(tuple(chain))) if is_end or len(chain) > 2 else None,
         working=(equation(name, product, *values),),
         concluding=product_named(context, *(context.values[key] for key in (f"H{start}", f"A{i}", f"H{i}"))),
         uses=uses,

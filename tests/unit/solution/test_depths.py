@@ -277,3 +277,16 @@ def test_bodies_of_which_the_same_is_said_have_one_line(detail: Detail) -> None:
 @pytest.mark.parametrize("detail", [Detail.BRIEF, Detail.NORMAL])
 def test_a_height_and_an_energy_that_are_0_stay_apart(detail: Detail) -> None:
     assert "η₁ = P₁" not in page_of("cart-pole", detail)
+
+
+TREE = """
+dh: [{theta: q1*, a: l}, {theta: q2*, a: b}, {theta: q3*, a: c, from: 1}]
+masses: [{mass: m, link: 2}, {mass: m, link: 3}]
+find: [tau]
+"""
+
+
+def test_brief_has_the_frame_at_each_end_of_a_tree() -> None:
+    text = page_of(TREE, Detail.BRIEF)
+    assert all(f"𝐇{end}⁰ = 𝐀₁ 𝐀{end}" in text for end in "₂₃")
+    assert "𝐇₁" not in text
