@@ -59,6 +59,9 @@ _MOST_ROWS = 12
 _HELD = 3
 """The rows at both ends of a longer one that stay on one page each."""
 
+_APART = {"mat(": 0.25, "frac(": 0.15}
+"""How far lines with these are apart, in em."""
+
 _LAST_KNOWN = 0x2C00
 _MATHEMATICAL = range(0x1D400, 0x1D800)
 
@@ -362,13 +365,10 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
     if len(lines) == 1:
         return f"#formula({_math(lines[0].alone)}, [{sides[0]}]{_STICKY * sticks})"
     rows = []
-    above, all_tall = False, True
-    for line, side in zip(lines, sides, strict=True):
-        right = _right(line)
-        is_tall = "mat(" in right
-        apart = "0.25em" if is_tall and above else "0em"  # two matrices would look like one
-        rows.append(f"({_math(line.left)}, {_math(right)}, {apart}, [{side}])")
-        above, all_tall = is_tall, all_tall and is_tall
+    rights = list(map(_right, lines))
+    for line, right, apart, side in zip(lines, rights, _apart(rights), sides, strict=True):
+        rows.append(f"({_math(line.left)}, {_math(right)}, {apart}em, [{side}])")
+    all_tall = all("mat(" in right for right in rights)
     if all_tall:  # equations so high may stand alone
         starts = [k for k, begins in enumerate(map(_begins, lines)) if begins or not k]
         ends = [*starts[1:], len(lines)]
@@ -376,6 +376,18 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
     else:
         runs = _in_runs(rows, list(map(_begins, lines)), last)
     return f"#formula-lines({runs}{_STICKY * sticks})"
+
+
+def _apart(lines: Iterable[str]) -> Iterator[float]:
+    """How far each line is kept from the one above, in em.
+
+    Two matrices would look like one, and a denominator would touch the numerator below it.
+    """
+    above = 0.0
+    for line in lines:
+        height = next((apart for sign, apart in _APART.items() if sign in line), 0.0)
+        yield min(height, above)
+        above = height
 
 
 def _begins(line: Line) -> bool:
@@ -393,11 +405,13 @@ def _in_runs(rows: Sequence[str], begins: Sequence[bool], last: int) -> str:
 def _in_columns(columns: Columns, side: str, last: int, sticks: bool) -> str:
     """Equations in columns, `side` at the end of the last row."""
     rows: list[list[str]] = []
-    for row in columns.rows:
+    rights = (" ".join(_right(cell.line) for cell in row) for row in columns.rows)
+    for row, apart in zip(columns.rows, _apart(rights), strict=True):
         cells = ["[]"]
         for cell in row:
             left_right = f"{_math(cell.line.left)}, {_math(_right(cell.line))}"
-            cells.append(f"grid.cell(colspan: {cell.span}, level-line({columns.name:.2f}em, {left_right}))")
+            line = f"pad(y: {apart}em, level-line({columns.name:.2f}em, {left_right}))"
+            cells.append(f"grid.cell(colspan: {cell.span}, {line})")
         if rest := columns.count - sum(cell.span for cell in row):
             cells.append(f"grid.cell(colspan: {rest}, [])")
         rows.append([*cells, "[]"])

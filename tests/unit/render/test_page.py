@@ -17,6 +17,7 @@ from dynsolve.render.line_breaking import numbered
 from dynsolve.render.markdown import escaped
 from dynsolve.render.page import before_closing, closing, introduces
 from dynsolve.render.prose import visible, with_formulas
+from dynsolve.render.typst import to_typst_document
 from dynsolve.solution.documents import solution_document
 from tests.support import document, solved
 
@@ -215,3 +216,10 @@ def test_any_text_as_markdown(text: str, markdown: str) -> None:
 )
 def test_products_and_named_letters_in_words_are_formulas(words: str, formulas: list[str]) -> None:
     assert [to_unicode(part) for part in with_formulas(words) if not isinstance(part, str)] == formulas
+
+
+def test_lines_with_fractions_are_kept_apart_in_a_pdf() -> None:
+    """The denominator of one would touch the numerator of the next."""
+    lines = [equation(Symbol(name), read("q/3").tree) for name in "abc"]
+    text = to_typst_document(Document((Equations((SHORT.node, *lines)),)))
+    assert text.count("pad(y: 0.0em") == text.count("pad(y: 0.15em") == 2
