@@ -335,10 +335,11 @@ def read_value(reader: EquationReader, name: str, place: Place, display: Display
 
 
 def announce(reader: EquationReader, name: str) -> None:
-    """Keep that a file gives the entry of a matrix under this name, wherever it stands."""
+    """Keep that a file gives the answer of this letter, or the entry of a matrix, wherever it stands."""
     side = _key(reader, name)
     if isinstance(side, NamedAnswers):
         reader.vocabulary.gives(side.candidates[0])
+        reader.vocabulary.calls(key(name))
 
 
 def _key(reader: EquationReader, name: str) -> LeftSide:

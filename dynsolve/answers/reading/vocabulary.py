@@ -147,8 +147,8 @@ class Vocabulary(Struct):
     could not be read, `angles` the student's own by subscript.
     `missed` are names that were looked for before anything defined them;
     `used` are the names of the student's own that were used,
-    `own_entries` are the entries of matrices that an equation of their own gives, `missed_entries` those that
-    were named before that was known;
+    `own_entries` are the entries of matrices, and the letters of answers, that an equation of their own
+    gives, `missed_entries` those that were named before that was known;
     `orders` says for letters of Christoffel symbols which index counts the row.
     `masses` are the masses, the moments of inertia and g; `has_inverse_functions` says that arccos and
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
@@ -368,6 +368,12 @@ class Vocabulary(Struct):
         """Keep that an equation gives this answer, where it is an entry of a matrix."""
         if self.quantities.entry_of(name)[0] and name not in self.own_entries:
             self.own_entries.add(name)
+            self.remembered.clear()
+
+    def calls(self, letter: str) -> None:
+        """Keep that an equation gives the answer of this one letter: in another case it is no symbol."""
+        if len(letter) == 1 and letter not in (*self.symbols, *self.own_entries):
+            self.own_entries.add(letter)
             self.remembered.clear()
 
     def is_own_entry(self, name: str, whole: str) -> bool:

@@ -294,7 +294,8 @@ def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
         return Meaning(angle, f"{form.text} is read as a sum of coordinates")
     if "inertia" in reader.options and (meaning := vocabulary.inertia(name)):
         return meaning
-    if vocabulary.named(name) and len(name) > 1:
+    is_answer = bool(vocabulary.named(name))
+    if is_answer and (len(name) > 1 or name in vocabulary.own_entries):
         return None
     if vocabulary.is_vector(name) or is_running(form.index or form.base_index):
         return None
@@ -306,6 +307,7 @@ def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
         if reader.naming and key(meaning.value.name).lower() == name.lower():
             return None  # what a report defines is another name though it differs by its case alone
         vocabulary.missed.add(name)
+        vocabulary.missed_entries |= {name} if is_answer else set()
     return meaning
 
 

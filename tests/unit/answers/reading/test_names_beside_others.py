@@ -152,3 +152,35 @@ def test_energies_that_braces_name_in_the_lagrangian(letters: str) -> None:
 def test_a_potential_energy_called_u_has_a_zero_of_its_height() -> None:
     for sine, expected in (("sin", "correct"), ("cos", "wrong")):
         assert verdicts(rf"$$u=mg\ell\{sine} Q_2+P_0$$")["P"] == expected
+
+
+SPRINGS = """
+gravity: none
+model:
+  coordinates: {p: prismatic, d: prismatic}
+  bodies: [{mass: m, at: [p, 0, 0]}, {mass: m, at: [d, 0, 0]}]
+springs: [{stiffness: k, of: p}, {stiffness: c, of: d - p, rest: l}]
+find: [K, P, L, tau, D, g]
+"""
+MODEL = "D = [m 0; 0 m]\ng = [k p - c (d-p-l); c (d-p-l)]\n"
+OF_SPRINGS = """{K} = 1/2 m (p'^2 + d'^2)
+{P} = 1/2 k p^2 + 1/2 c (d - p - l)^2
+"""
+
+
+@pytest.mark.parametrize(("letters", "ending"), [("KP", "txt"), ("KV", "txt"), ("TU", "txt"), ("KP", "yaml")])
+@pytest.mark.parametrize(("sign", "expected"), [("-", "correct"), ("+", "wrong")])
+def test_a_letter_that_was_handed_in_is_no_symbol_in_another_case(
+    letters: str, ending: str, sign: str, expected: str
+) -> None:
+    """K is not the stiffness k, P not the coordinate p, D not the coordinate d."""
+    K, P = letters
+    energies, L = OF_SPRINGS.format(K=K, P=P), f"L = {K} {sign} {P}\n"
+    for before in (energies + L, L + energies):
+        text = f"{before}{MODEL}tau = D q'' + g\n"
+        if ending == "yaml":
+            text = "answers:\n  " + text.replace(" = ", ": ").replace("\n", "\n  ") + "\n"
+        judge = Checker(read_problem(SPRINGS))
+        found = judge(read_submission(judge.problem, text, f"answers.{ending}"))
+        wanted = {**dict.fromkeys(("K", "P", "D", "g", "tau"), "correct"), "L": expected}
+        assert {answer.name: answer.verdict.value for answer in found.answers} == wanted
