@@ -199,7 +199,7 @@ class EquationReader:
         if is_gravity or (isinstance(value, Node) and candidates[0] in forces):
             return False
         self.found.answers += self.found.value([candidates], member, self.origin(display, display.label))
-        self.vocabulary.calls(key(head.strip()))
+        self.vocabulary.calls(key(head.partition("(")[0].strip()))
         return True
 
     def _plainly_named(self, head: str) -> tuple[str, ...]:
@@ -470,7 +470,8 @@ class EquationReader:
                 given += [a for candidates in names for a in self.found.unread(candidates, member, origin)]
         self.found.answers += given
         if any(answer.node is not None for answer in given):
-            self.vocabulary.calls(name_alone(self.vocabulary, members[0]))
+            first, *behind = members[0]
+            self.vocabulary.calls("" if behind and behind[0].kind != "(" else first.text)
         if refused and not given:
             self.found.not_recognized.append(origin.of(members, refused))
         elif condition and not given:

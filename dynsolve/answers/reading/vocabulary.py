@@ -372,7 +372,7 @@ class Vocabulary(Struct):
 
     def calls(self, letter: str) -> None:
         """Keep that an equation gives the answer of this one letter: in another case it is no symbol."""
-        if len(letter) == 1 and letter not in (*self.symbols, *self.own_entries):
+        if len(letter) == 1 and letter not in self.own_entries:
             self.own_entries.add(letter)
             self.remembered.clear()
 

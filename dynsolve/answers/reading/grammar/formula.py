@@ -137,6 +137,9 @@ class FormulaReader(Reader):
             if isinstance(value, Node):
                 scalars.append(value)
             else:
+                if other is None and len(scalars) == 1:
+                    other = references.matrix_for_letter(self, scalars[0], value)
+                    scalars = scalars if other is None else []
                 other = value if other is None else self.placed(start, times, other, value, sign)
             while self.token.kind == "/":
                 self.take()

@@ -172,6 +172,27 @@ def _vector(reader: Reader, term: Value, shape: tuple[int, int]) -> Value:
     return negative(found) if isinstance(term, Negative) else found
 
 
+_BEFORE_RATES = {1: "C", 2: "D"}
+"""Which matrix stands before q̇, and which before q̈."""
+
+
+def matrix_for_letter(reader: Reader, letter: Node, rates: Value) -> Value | None:
+    """The matrix that a letter of the hand-in is before q̈ or q̇, though it is a mass elsewhere; else None."""
+    whole = _BEFORE_RATES.get(rates.is_rates) if isinstance(rates, Grid) else None
+    if whole is None or not isinstance(letter, Symbol) or letter.dots:
+        return None
+    name, vocabulary = key(letter.name), reader.vocabulary
+    if whole not in vocabulary.named(name):
+        return None
+    if name not in vocabulary.own_entries:
+        vocabulary.missed_entries.add(name)
+        return None
+    reader.names_used += 1
+    reader.symbols.pop(letter.name, None)
+    reader.references.setdefault(whole)
+    return placeholder(vocabulary, whole)
+
+
 def skip_arguments(reader: Reader) -> None:
     """Leave out the arguments of D(q) and C(q, q_dot)."""
     if reader.token.kind == "(" and only_coordinates(reader, reader.position):

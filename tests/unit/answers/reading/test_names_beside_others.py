@@ -184,3 +184,26 @@ def test_a_letter_that_was_handed_in_is_no_symbol_in_another_case(
         found = judge(read_submission(judge.problem, text, f"answers.{ending}"))
         wanted = {**dict.fromkeys(("K", "P", "D", "g", "tau"), "correct"), "L": expected}
         assert {answer.name: answer.verdict.value for answer in found.answers} == wanted
+
+
+MATRIX = r"\begin{pmatrix}M\ell^2&m\ell^2\cos Q_2\\m\ell^2\cos Q_2&m\ell^2\end{pmatrix}"
+CORIOLIS = r"$$C=\begin{pmatrix}0&-m\ell^2\sin Q_2\dot Q_2\\0&0\end{pmatrix}$$"
+
+
+@pytest.mark.parametrize("letter", CHECKERS)
+@pytest.mark.parametrize("arguments", ["", "(q)"])
+@pytest.mark.parametrize("font", ["M", r"\mathbf M", r"\boldsymbol{M}"])
+def test_the_matrix_of_a_hand_in_stands_before_accelerations(letter: str, arguments: str, font: str) -> None:
+    """M is a mass in the problem, and in its entries."""
+    model = f"$${font}{arguments}={MATRIX}$$\n\n{CORIOLIS}\n\n{G}"
+    motion = rf"$$\tau={font}\ddot{{\mathbf q}}+C\dot{{\mathbf q}}+g$$"
+    for text in (f"{model}\n\n{motion}", f"{motion}\n\n{model}"):
+        assert [verdicts(text, letter)[name] for name in ("D", "C", "g", "tau")] == ["correct"] * 4
+
+
+def test_a_mass_stands_before_accelerations_where_the_matrix_has_another_letter() -> None:
+    judge = Checker(read_problem(SPRINGS))
+    for mass, expected in (("m", "correct"), ("k", "wrong")):
+        text = f"{MODEL}tau = {mass} q'' + g\n"
+        found = judge(read_submission(judge.problem, text, "answers.txt"))
+        assert {a.name: a.verdict.value for a in found.answers}["tau"] == expected
