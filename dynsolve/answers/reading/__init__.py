@@ -4,7 +4,7 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 
 1. `files` knows the format by the file's ending; `reports`, `answer_file` or `web` (pages and notebooks)
    finds the displayed equations, each a `displays.Display` (`report_text` leaves comments away;
-   `plain_text` and `dh_tables` find equations that are no displays; pandoc reads Word and its like).
+   `plain_text`, `printed_rows` and `dh_tables` find equations that are no displays; pandoc reads Word).
    `sources` keeps where every character stands in the file, and says how much is read.
 2. `lexer` cuts the text of a display into letters, numbers, commands and signs, and writes the student's
    macros out; nothing there depends on the problem.

@@ -23,6 +23,7 @@ from msgspec import Struct, field
 from dynsolve.answers.reading.grids import MAX_NESTING
 from dynsolve.answers.reading.left_side import LeftSide, NamedAnswers, UnknownSide, side_of
 from dynsolve.answers.reading.matrix_parts import rest_is_zero
+from dynsolve.answers.reading.printed_rows import printed_matrix
 from dynsolve.answers.reading.report_text import is_of_one_case
 from dynsolve.answers.reading.set_text import AND, SO
 from dynsolve.answers.reading.sources import HIDDEN, levels
@@ -382,10 +383,6 @@ _DOTS = re.compile(r"\.\.\.[ \t]*(?=\n)")
 _ROW_END = re.compile(r"(?<=[^\s=+\-*/,;(\[{&\\.])[ \t]*\n[ \t]*(?=[^\s=+\-*/),;\]])")
 """The end of a line where no sign says that it goes on: within brackets, as in MATLAB, that of a row."""
 
-_BLANK_LINE = re.compile(r"\n[ \t]*(?=\n|\Z)")
-_ENTRY = re.compile(r"[ \t]*[^\s=\[#%:][^=\n:]*")
-"""A line that is one entry of a column, or one row of a matrix, as MATLAB prints it."""
-
 _PARAGRAPH = re.compile(
     rf"(?:{_LINE_HEAD}\n(?:[ \t]*\n)?)?(?:(?!{_LINE_HEAD}(?:\n|\Z))[^\n]*[^\s][^\n]*(?:\n|\Z))+", re.MULTILINE
 )
@@ -412,6 +409,15 @@ class AnswerNames:
         """Whether it is the name of an answer, and no coordinate."""
         return isinstance(self._side(head), NamedAnswers) and head not in self._coordinates
 
+    def shapes(self, line: str) -> set[tuple[int, int]]:
+        """The shapes of the matrices that a line begins with the name of: of an unknown one a vector's."""
+        head, sign, _ = line.partition("=")
+        side = self._side(head.rstrip(" \t:")) if sign else None
+        if isinstance(side, UnknownSide):
+            return {(rows, 1) for rows in range(2, 7)} if side.is_name_alone else set()
+        shapes = [self._vocabulary.shape(name) for name in side.candidates] if side else []
+        return set() if None in shapes else {shape for shape in shapes if shape is not None}
+
     def is_unknown(self, word: str) -> bool:
         """Whether a word is no name of the problem."""
         return isinstance(self._side(word), UnknownSide)
@@ -427,6 +433,14 @@ def plain_lines(text: str, start: int, end: int, names_answer: AnswerNames) -> I
     while position < end:
         stop = text.find("\n", position, end)
         stop = end if stop < 0 else stop
+        has_sign = _SIGN.search(text, position, stop) or _SIGN_BELOW.match(text, stop)
+        first = _begins(text, position, stop, names_answer) if has_sign else -1
+        if first >= 0 and (
+            printed := printed_matrix(text, first, end, names_answer.shapes(text[first:stop]))
+        ):
+            yield first, printed
+            position = first + len(printed)
+            continue
         drawn = _PARAGRAPH.match(text, position, end) if begins else None
         if drawn is not None and (equation := one_line(drawn[0], names_answer)):
             yield position, equation
@@ -435,15 +449,9 @@ def plain_lines(text: str, start: int, end: int, names_answer: AnswerNames) -> I
         begins = not text[position:stop].strip()
         if called := _CALLED.match(text, position, stop):
             yield called.start("sides"), _with_sign(called["sides"])
-        has_sign = _SIGN.search(text, position, stop) or _SIGN_BELOW.match(text, stop)
-        first = _begins(text, position, stop, names_answer) if has_sign else -1
         if first >= 0:
-            head, stop = stop, _whole(text, first, stop, end)
-            if bottom := _column_end(text, first, head, stop, end):
-                yield first, _column(text[first:head], text[head:bottom])
-                stop = bottom
-            else:
-                yield first, _formula(_with_powers(text, first, stop), names_answer)
+            stop = _whole(text, first, stop, end)
+            yield first, _formula(_with_powers(text, first, stop), names_answer)
         position = stop + 1
 
 
@@ -554,24 +562,6 @@ def _whole(text: str, start: int, stop: int, end: int) -> int:
             break
         seen, stop = stop, below
     return stop
-
-
-def _column_end(text: str, first: int, head: int, stop: int, end: int) -> int:
-    """Where the lines end that MATLAB prints without brackets below `g =`; 0 where there is only one."""
-    if not text[first:head].rstrip().endswith("=") or not _BLANK_LINE.match(text, head, end):
-        return 0
-    blank = _BLANK_LINE.search(text, stop, end)
-    below = blank.start() if blank else end
-    lines = text[stop:below].split("\n")
-    is_column = len(lines) > 1 and all(_ENTRY.fullmatch(line) for line in lines[1:])
-    return below if is_column and _ENTRY.fullmatch(text[head:stop].strip("\n \t")) else 0
-
-
-def _column(head: str, lines: str) -> str:
-    """The lines as rows of a matrix: its brackets stand for the first line's end and behind the last."""
-    first = len(lines) - len(lines.lstrip())
-    blank, entries = lines[:first], lines[first:].rstrip()
-    return f"{head}{blank[:-1]}[{entries.replace(chr(10), ';')}]"
 
 
 def _skip_blank_lines(text: str, stop: int, end: int) -> int:

@@ -45,6 +45,45 @@ def test_rows_side_by_side(brackets: str, between: str) -> None:
     assert [wrong[name] for name in "DC"] == ["wrong", "correct"]
 
 
+@pytest.mark.parametrize("brackets", ["[]", "||", "()", "  "])
+@pytest.mark.parametrize("head", ["D =", "D(q) :=", "Inertia: D ="])
+def test_blanks_inside_entries_part_none_where_the_shape_says_so(brackets: str, head: str) -> None:
+    left, right = brackets
+    upper, lower = "1/2 m2 L2^2 + I1zz", "1/2 m2 L2 cos(theta1) + m1"
+    text = (
+        f"{head}\n{left} {upper:<27}m2 L2 cos(theta1) {right}\n"
+        f"{left} {lower:<27}1/3 m2 L2^2       {right}\n\nK = m1"
+    )
+    found = report(text, "report.txt", "in3140-rp")
+    expected = (
+        "D = [[1/2 m2 L2^2 + I1zz, m2 L2 cos(theta1)], [1/2 m2 L2 cos(theta1) + m1, 1/3 m2 L2^2]]\nK = m1"
+    )
+    assert [(one.name, one.read_as, one.fault) for one in found.answers] == [
+        (one.name, one.read_as, one.fault) for one in report(expected, "report.txt", "in3140-rp").answers
+    ]
+
+
+@pytest.mark.parametrize("blank", ["", "\n"])
+def test_an_entry_of_a_column_may_begin_with_a_minus(blank: str) -> None:
+    text = f"g =\n{blank} m2*g*sin(theta1)\n      -m2*g\n\nh =\n{blank} m2*g\n -m2*g*L2\n\nf2 = h^T h"
+    expected = "g = [m2*g*sin(theta1); -m2*g]\nh = [m2*g; -m2*g*L2]\nf2 = h^T h"
+    found, read = (report(one, "report.txt", "in3140-rp").answers for one in (text, expected))
+    assert [(one.name, one.read_as, one.fault) for one in found] == [
+        (one.name, one.read_as, one.fault) for one in read
+    ]
+    assert found[0].name == "g" and "h" not in found[-1].read_as
+
+
+@pytest.mark.parametrize("text", [
+    "K =\n m1*g\n -m2*g",
+    "P =\n\n  m1*g\n  - m2*g",
+    "d11 =\n      2\n m2*L2",
+])  # fmt: skip
+def test_lines_of_a_scalar_are_no_rows(text: str) -> None:
+    (answer,) = report(text, "report.txt", "in3140-rp").answers
+    assert answer.node is not None and not answer.fault
+
+
 def test_lines_of_a_program_are_no_rows() -> None:
     text = (
         "D = [ I1zz + m2*L2^2  0 ; 0  m2 ]\nC(q,qd) = [ m2*L2*L2'  m2*L2*θ1' ; -m2*L2*θ1'  0 ]\ng = [0; 0]\n"
