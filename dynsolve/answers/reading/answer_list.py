@@ -261,6 +261,10 @@ class AnswerList(Struct, dict=True):
             )
         ]
 
+    def gives_all(self, names: Sequence[str]) -> bool:
+        """Whether there is an answer to each of these."""
+        return {answer.name for answer in self.answers}.issuperset(names)
+
     def motion(self, equation: MotionEquation, tokens: list[Token], origin: Origin) -> None:
         """Keep an equation of motion: of several that it may be, the first that is absent, in their order."""
         forces = equation.forces

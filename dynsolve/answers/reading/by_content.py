@@ -43,7 +43,7 @@ from dynsolve.notation.characters import split
 from dynsolve.notation.tree import ZERO, Node, Symbol
 from dynsolve.quantities.letters import key
 from dynsolve.quantities.stages import Stage
-from dynsolve.questions.forward_dynamics import QDD_FORWARD
+from dynsolve.robot.model import Coordinate
 
 _NAME = re.compile(r"(k|u)([0-9a-z]?)|(H)((?:[1-9][1-9])?)")
 _FRICTION = re.compile(r"(?:tau|[TMFQ])(?:f|fr|fric|friction|r|R|Reib|reib|fv|d|D|diss)")
@@ -87,7 +87,7 @@ def force_meant(vocabulary: Vocabulary, name: str, value: Value) -> tuple[str, .
 
     Without an index it is one of those that are driven.
     """
-    if isinstance(value, Abstract) or not name or name in vocabulary.symbols:
+    if isinstance(value, Abstract) or not name or name.rstrip("'") in vocabulary.symbols:
         return ()
     symbols = symbols_in(value)
     has_mass = any(symbol.name in vocabulary.masses for symbol in symbols)
@@ -204,14 +204,16 @@ def _called(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> MotionEqu
     return None
 
 
-def acceleration_of(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> int:
-    r"""The coordinate, from 1, that `\ddot q_1 = ...` is solved for, where that is asked for; else 0."""
-    if QDD_FORWARD.name not in vocabulary.quantities or len(members[0]) > _LONGEST_NAME:
-        return 0
-    first = read_right_side(vocabulary, members[0])
+def acceleration_of(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> Coordinate | None:
+    r"""The coordinate that `\ddot q_1 = ...` is solved for; beside others it is an equation of motion."""
+    if len(members[0]) > _LONGEST_NAME:
+        return None
+    first, last = (read_right_side(vocabulary, member) for member in (members[0], members[-1]))
     value = first.value if isinstance(first, RightSide) else None
     q = vocabulary.coordinate(value) if isinstance(value, Symbol) and value.dots == 2 else None
-    return q.index if q is not None else 0
+    others = symbols_in(last.value) if isinstance(last, RightSide) else []
+    is_equation = q is not None and q.force in vocabulary.passive and any(one.dots > 1 for one in others)
+    return None if is_equation else q
 
 
 def says_what_drives(vocabulary: Vocabulary, names: Sequence[str], member: list[Token]) -> bool:

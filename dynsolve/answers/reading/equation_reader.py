@@ -61,7 +61,7 @@ from dynsolve.answers.reading.matrix_parts import (
     part_of,
     shown,
 )
-from dynsolve.answers.reading.name_splitting import gives_new_meaning, keep_symbol
+from dynsolve.answers.reading.name_splitting import gives_new_meaning, gives_own_angle, keep_symbol
 from dynsolve.answers.reading.plain import plain_member
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.report_text import CONDITION, CONSTANT
@@ -321,15 +321,18 @@ class EquationReader:
         """Keep an equation of motion, an acceleration, or a linear model; whether the chain is one."""
         if any(candidates[0] not in ("tau", "friction") for candidates in names):
             return False
-        if row := acceleration_of(self.vocabulary, members):
+        solved = acceleration_of(self.vocabulary, members)
+        if solved is not None and QDD_FORWARD.name in self.vocabulary.quantities:
             value = read_right_side(self.vocabulary, members[-1], (QDD_FORWARD.name,))
-            self.found.acceleration(row, Member(len(members) - 1, members[-1], value), origin)
+            self.found.acceleration(solved.index, Member(len(members) - 1, members[-1], value), origin)
             return True
         name = "" if names else name_alone(self.vocabulary, members[0])
         if name and len(members) == 3 and [token.text for token in members[-1]] == ["0"]:  # eq1 = ... = 0
             members = members[1:]
         found = motion_equation(self.vocabulary, members)
-        if found is not None:
+        if found is not None and solved is not None and self.found.gives_all(found.forces):
+            self.found.left_alone.append(origin.of(members, "it is solved for an acceleration"))
+        elif found is not None:
             self.found.motion(found, [token for member in members for token in member], origin)
         linear = [] if found else list(linear_parts(self.vocabulary, members))
         self.found.answers += [self.found.answer((name,), member, origin) for name, member in linear]
@@ -388,9 +391,12 @@ class EquationReader:
     def defines_in_passing(self, first: list[Token], found: RightSide) -> bool:
         """Keep another meaning of what would be read as a coordinate; whether there was one."""
         name = name_alone(self.vocabulary, first)
-        if not gives_new_meaning(self.vocabulary, name, found.value):
+        if gives_new_meaning(self.vocabulary, name, found.value):
+            keep_symbol(self.vocabulary, name, 0, found.value, in_passing=True)
+        elif gives_own_angle(self.vocabulary, name, found.value):
+            self.define(name, found)
+        else:
             return False
-        keep_symbol(self.vocabulary, name, 0, found.value, in_passing=True)
         return True
 
     def defines_shorthand(self, first: list[Token], values: list[RightSide]) -> bool:

@@ -16,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from msgspec.structs import replace
 
 from dynsolve.answers.reading.grammar.reader import rate
-from dynsolve.answers.reading.grids import Value
+from dynsolve.answers.reading.grids import Value, symbols_in
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.vocabulary import ENERGY_LEVELS, ZERO_LEVELS, Meaning, Vocabulary, spellings
 from dynsolve.answers.verdict import Answer
@@ -188,6 +188,19 @@ def gives_new_meaning(vocabulary: Vocabulary, name: str, value: Value) -> bool:
     if usual is None or usual.dots or vocabulary.coordinate(usual) is None or isinstance(value, Symbol):
         return False
     return isinstance(value, Node) and rate(value, vocabulary, 1) is not None
+
+
+def gives_own_angle(vocabulary: Vocabulary, name: str, value: Value) -> bool:
+    r"""Whether `\dot\theta = \dot x/R` gives an angle of the own that would be read as a coordinate."""
+    base, dots = name.rstrip("'"), name.count("'")
+    usual = vocabulary.others.get(name)
+    if base and base not in vocabulary.symbols and (only := vocabulary.only_coordinate(base)):
+        usual = usual or Symbol(only.name, dots)
+    if usual is None or any(character.isdigit() for character in name) or not isinstance(value, Node):
+        return False
+    symbols = symbols_in(value)
+    moves = any(one.dots == usual.dots and vocabulary.coordinate(one) for one in symbols)
+    return moves and usual not in symbols and not isinstance(value, Symbol)
 
 
 # Coordinates that a student counts the other way, or from elsewhere

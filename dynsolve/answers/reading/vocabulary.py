@@ -338,6 +338,10 @@ class Vocabulary(Struct):
             same = [q for q in self.coordinates if q.type is JointType.REVOLUTE]
         return Symbol(same[0].name) if len(same) == 1 else None
 
+    def has_rates_of(self, name: str) -> bool:
+        """Whether rates of a name are the student's own."""
+        return f"{name}'" in self.defined or f"{name}''" in self.defined
+
     def inertia(self, name: str) -> Meaning | None:
         """The one moment of inertia with the index of a bare I_1."""
         base, groups = split(name)

@@ -47,7 +47,7 @@ def only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
     is_matrix = reader.vocabulary.shape(reader.owner) not in (None, (1, 1))
     if is_matrix or any(t.text in ("T", "top") for t in reader.tokens):
         return None
-    symbol = reader.vocabulary.only_coordinate(name)
+    symbol = None if reader.vocabulary.has_rates_of(name) else reader.vocabulary.only_coordinate(name)
     if name == "q" and reader.references:  # beside D and C it is the vector
         return None
     if symbol is None or (reader.token.kind == "(" and only_coordinates(reader, reader.position)):
@@ -186,12 +186,14 @@ def value_of(reader: Reader, form: Form) -> Value:
         if found is not None:
             return found
     marked = form.marked_key if form.key == name else name
-    meaning = vocabulary.defined.get(marked) if marked != name else None
-    if meaning is not None:
-        form.dots, form.scripts = 0, Scripts(transposed=form.scripts.transposed)
+    unsquared = marked.removesuffix("^2")
+    own = next((one for one in (marked, unsquared) if one != name and one in vocabulary.defined), "")
+    if own:
+        meaning: Meaning | None = vocabulary.defined[own]
+        powers = form.scripts.powers if own == unsquared else []
+        form.dots, form.scripts = 0, Scripts(powers=powers, transposed=form.scripts.transposed)
     else:
-        if marked != name:
-            vocabulary.missed.add(marked)
+        vocabulary.missed |= {marked, unsquared} - {name}
         meaning = vocabulary.symbol(name)
     if meaning is None and (name, form.dots) in vocabulary.derived:
         meaning, form.dots = Meaning(vocabulary.derived[name, form.dots]), 0

@@ -19,6 +19,8 @@ CRANE = [
     (r"-m\ddot q_1 = m_p\ddot q_1 - \tau", "f1: m_p q̈₁ + m q̈₁"),
     (r"d_p\ddot q_2 + \ddot q_1\cos q_2 = -g_0\sin q_2", "tau2: d_p q̈₂ + q̈₁ cos(q₂) + g₀ sin(q₂)"),
     (r"0 = \ddot q_1\cos q_2 + d_p\ddot q_2", "tau2: q̈₁ cos(q₂) + d_p q̈₂"),
+    (r"\ddot q_2 = -\frac{g_0\sin q_2 + \ddot q_1}{d_p}", "tau2: q̈₂ + (g₀ sin(q₂) + q̈₁)/d_p"),
+    (r"\ddot q_2 = -\frac{g_0\sin q_2}{d_p}", "tau2: q̈₂ + g₀ sin(q₂)/d_p"),
     (r"m\ddot q_1 = \tau_2", "tau2: m q̈₁"),
 ]
 
@@ -27,6 +29,13 @@ CRANE = [
 def test_the_force_is_what_drives_or_that_of_the_passive_coordinate(equation: str, expected: str) -> None:
     (answer,) = report(f"$${equation}$$", stem="crane").answers
     assert f"{answer.name}: {shown(answer)}" == expected
+
+
+def test_what_is_solved_for_an_acceleration_is_none_where_its_equation_is_there() -> None:
+    rows = r"$$(m + m_p)\ddot q_1 + m_p d_p\ddot q_2\cos q_2 = F$$ $$\ddot q_1\cos q_2 + d_p\ddot q_2 = 0$$"
+    found = report(rows + r" $$\ddot q_2 = -\frac{m_p g_0\sin q_2}{m d_p}$$", stem="crane")
+    assert [answer.name for answer in found.answers] == ["f1", "tau2"]
+    assert [one.why for one in found.left_alone] == ["it is solved for an acceleration"]
 
 
 def test_equations_are_those_of_all_coordinates_in_their_order_where_the_file_names_none_passive() -> None:

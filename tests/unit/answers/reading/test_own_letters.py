@@ -19,12 +19,21 @@ model:
   P: m*g*l*cos(q2)
 find: [D, P]
 """
+WHEEL = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, gamma: revolute}
+  bodies:
+    - {mass: M, at: [x, R, 0], turn: -x/R, about: [0, 0, 1], inertia: {zz: M*R^2/2}}
+    - {mass: m, at: [x + l*sin(gamma), R - l*cos(gamma), 0]}
+find: [K]
+"""
 REACH = "{gravity: none, dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}], reach: [x, y], find: [inverse]}"
 
 
 @cache
 def checker(name: str) -> Checker:
-    texts = {"pendulum": PENDULUM, "reach": REACH}
+    texts = {"pendulum": PENDULUM, "reach": REACH, "wheel": WHEEL}
     return Checker(read_problem(texts[name]) if name in texts else load(find(name)))
 
 
@@ -90,6 +99,23 @@ def test_heights_and_squares_of_speeds() -> None:
     K = rf"$$K=\tfrac12m_1l_{{c1}}^2\dot q_1^2+\tfrac12m_2v_2^2+{turning}$$"
     assert verdict("planar-2r", f"$$v_2^2={square}$$\n\n{K}", "K") == "correct"
     assert verdict("planar-2r", f"{K} where $v_2^2={square.replace('2l_1', 'l_1')}$", "K") == "wrong"
+
+
+OF_WHEEL = (
+    r"$$K=\frac12M\dot x^2+\frac14MR^2\dot\theta^2"
+    r"+\frac12m(\dot x^2+2l\dot x\dot\gamma\cos\gamma+l^2\dot\gamma^2)$$"
+)
+
+
+@pytest.mark.parametrize("said", [
+    r"$$\dot\theta=\dot x/R$$", r"$$\theta=\frac{x}{R}$$", r"With the angle of the disk, $\theta=x/R$,",
+    r"The disk turns by $\theta$ with $\dot\theta=\dot x/R$ (rolling without slipping).",
+])  # fmt: skip
+@pytest.mark.parametrize("letter", [r"\theta", r"\varphi"])
+def test_an_angle_of_the_own_is_not_the_only_one_that_turns(said: str, letter: str) -> None:
+    text = f"{said}\n\n{OF_WHEEL}".replace(r"\theta", letter)
+    assert verdict("wheel", text, "K") == "correct"
+    assert verdict("wheel", text.replace("x/R", "x").replace("{x}{R}", "{x}{2}"), "K") == "wrong"
 
 
 COSINE = r"\frac{x^2+y^2-l_1^2-l_2^2}{2l_1l_2}"
