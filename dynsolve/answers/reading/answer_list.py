@@ -96,6 +96,9 @@ class Member(Struct, frozen=True):
     found: RightSide | ReadError
 
 
+UNDRIVEN = "it is written as = 0, without the force that drives it"
+
+
 class AnswerList(Struct, dict=True):
     """The answers of one hand-in, in the order of the file; `printer` writes how each was read.
 
@@ -272,9 +275,11 @@ class AnswerList(Struct, dict=True):
         name = (absent or forces)[0]
         answer = self.answer((name,), Member(0, tokens, equation.found), origin)
         others = tuple(force for force in forces if force != name)
-        self.answers.append(replace(answer, alternatives=others, is_equation=equation.is_zero))
+        answer = replace(answer, alternatives=others, is_equation=equation.is_zero)
         if equation.is_zero and not self.vocabulary.passive:
+            answer = replace(answer, notes=(*answer.notes, UNDRIVEN))
             self.in_case.setdefault(origin.equation, FREE)
+        self.answers.append(answer)
 
     def motion_aside(
         self, equation: MotionEquation, tokens: list[Token], origin: Origin, refused: NotRecognized

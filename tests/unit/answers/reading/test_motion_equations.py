@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.answers.judge import Checker
+from dynsolve.answers.reading.answer_list import UNDRIVEN
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.reading.grammar.brackets import SYMMETRIC_NOTE
 from dynsolve.answers.reading.report_text import FREE
@@ -41,6 +42,7 @@ def test_what_is_solved_for_an_acceleration_is_none_where_its_equation_is_there(
 def test_equations_are_those_of_all_coordinates_in_their_order_where_the_file_names_none_passive() -> None:
     found = report(r"$$M\ddot x = F$$ $$m\ddot\theta = 0$$ $$m l\ddot\theta = -g$$", stem="cart-pole")
     assert [(a.name, a.alternatives) for a in found.answers] == [("f1", ("tau2",)), ("tau2", ("f1",))]
+    assert [UNDRIVEN in answer.notes for answer in found.answers] == [False, True]
     assert [(one.answers, one.why) for one in found.left_alone] == [(("f1",), FREE)]
 
 
