@@ -308,6 +308,7 @@ class Judge:
         self._general = {answer.name for answer in general}
         others += general
         self.hand_in = ComparedHandIn(checker.graph, checker.compare_entry, others)
+        self._abbreviations = list[JudgedAnswer]()
         self.graph = self.hand_in.graph
 
     @cached_property
@@ -361,6 +362,8 @@ class Judge:
         """The answers that were given, and those that were asked for, by name."""
         judge = AnswerJudge(self.problem, self.hand_in, self.explanations, self._diagnoser)
         answers = {name: judge(name) for name in self.hand_in.chains}
+        for name in list(self._own_names(answers)):
+            self._abbreviations.append(answers.pop(name))
         unread = self._unread(answers)
         answers = self._with_waiting(answers, unread)
         if self.tables:
@@ -388,6 +391,18 @@ class Judge:
             if (defined := self._unwritten(name, answers)).verdict is Verdict.MISSING:
                 answers[name] = defined
         return answers
+
+    def _own_names(self, answers: dict[str, JudgedAnswer]) -> Iterator[str]:
+        """What is wrong as an answer, unasked, and makes others right: an abbreviation, m_12 = m_2 + m_L."""
+        uses = {
+            other: {name for chain in chains for value in chain for name in value.answer.references}
+            for other, chains in self.hand_in.chains.items()
+        }
+        for name, answer in answers.items():
+            made = [answers[other] for other, used in uses.items() if name in used]
+            is_right = bool(made) and all(one.verdict is Verdict.CORRECT for one in made)
+            if answer.verdict is Verdict.WRONG and name not in self._asked and is_right:
+                yield name
 
     def _unread(self, answers: dict[str, JudgedAnswer]) -> dict[str, str]:
         """The nodes of what could not be read, and the answers of these that stand for them."""
@@ -433,6 +448,11 @@ class Judge:
                 refused.append(replace(one, why=why))
             elif lacking or not one.needs or self._general.isdisjoint(one.answers):
                 explained.append(one)
+        explained += (
+            NotRecognized(own.read_as, own.label, own.place, "it defines an abbreviation")
+            for own in self._abbreviations
+            if own.place is not None
+        )
         for name, chains in self.hand_in.definitions.items():
             judged = {chain[0].answer.occurrence[0] for chain in given.get(name, ())}
             unjudged = (chain for chain in chains if chain[0].answer.occurrence[0] not in judged)

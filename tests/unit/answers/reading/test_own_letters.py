@@ -231,3 +231,36 @@ find: [Ac]
     }.items():
         report = judge(read_submission(judge.problem, f"Ac = [{rows}]", "a.txt"))
         assert (rows, [str(a.verdict) for a in report.answers if a.name == "Ac"]) == (rows, [expected])
+
+
+POINT = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {r: prismatic, alpha: revolute}
+  bodies: [{mass: m, at: [r*sin(alpha), -r*cos(alpha), 0]}]
+find: [K]
+"""
+RODS = """
+gravity: [0, -g, 0]
+dh: [{theta: p1*, a: a1}, {theta: p2* - p1*, a: a2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: mL, name: L, link: 2}]
+find: [D, g]
+"""
+
+
+@pytest.mark.parametrize(("problem", "own", "answer", "names", "slip"), [
+    (POINT, r"\omega = \dot\alpha", r"K = \frac12 m(\dot r^2 + r^2\omega^2)", ("K", "w1"), ("r^2", "r")),
+    (RODS, "m_{12} = m_2 + m_L",
+     r"g = \begin{pmatrix}(m_1 + m_{12})ga_1\cos p_1\\(m_2 + m_L)ga_2\cos p_2\end{pmatrix}",
+     ("g", "d12"), ("m_1 +", "m_1 -")),
+])  # fmt: skip
+def test_a_name_of_the_own_that_makes_an_answer_right_is_none(
+    problem: str, own: str, answer: str, names: tuple[str, str], slip: tuple[str, str]
+) -> None:
+    judge = Checker(read_problem(problem))
+    for written, expected in ((answer, ("correct", None)), (answer.replace(*slip), ("wrong", "wrong"))):
+        for said in (f"$${own}$$\n\n$${written}$$", f"With ${own}$:\n\n$${written}$$"):
+            report = judge(read_submission(judge.problem, said, "report.md"))
+            found = {one.name: one.verdict.value for one in report.answers}
+            assert tuple(map(found.get, names)) == expected
+            assert len(report.set_aside) == (expected[1] is None)
