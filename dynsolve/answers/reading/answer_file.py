@@ -20,6 +20,7 @@ import re
 from collections.abc import Iterable, Iterator
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.answers.reading import dh_tables, yaml_values
 from dynsolve.answers.reading.answer_list import Member, Origin
@@ -38,7 +39,7 @@ from dynsolve.answers.reading.left_side import (
     side_of,
 )
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.matrix_parts import shown
+from dynsolve.answers.reading.matrix_parts import part_of, shown
 from dynsolve.answers.reading.name_splitting import keep_symbol
 from dynsolve.answers.reading.plain import plain_member
 from dynsolve.answers.reading.prepare import prepared
@@ -322,6 +323,9 @@ def _meaning(word: str) -> str:
 def read_value(reader: EquationReader, name: str, place: Place, display: Display) -> None:
     """Read the value that an answer file gives under a name."""
     origin = reader.origin(display, display.label)
+    if members := _of_several(reader, name, display):
+        reader.read_part(members, replace(origin, names=part_of(reader.vocabulary, members[0])))
+        return
     side = _key(reader, name)
     names = side.family if isinstance(side, UnknownSide) else ()
     refused = NotRecognized(shown(f"{name}: {display.text}"), "", place, "it names nothing known", names)
@@ -332,6 +336,17 @@ def read_value(reader: EquationReader, name: str, place: Place, display: Display
         reader.found.put_off(side.family, made, refused)
     else:
         reader.found.not_recognized.append(refused)
+
+
+def _of_several(reader: EquationReader, name: str, display: Display) -> list[list[Token]]:
+    """The name and its value, where it names several answers at once; nothing for every other."""
+    try:
+        first = prepared(name)[:-1]
+        if not part_of(reader.vocabulary, first):
+            return []
+        return [first, *chain(prepared(display.text, reader.macros))]
+    except ReadError:
+        return []
 
 
 def announce(reader: EquationReader, name: str) -> None:

@@ -252,7 +252,7 @@ class EquationReader:
             return
         self.vocabulary.count(order_of_pair(members))
         if part := part_of(self.vocabulary, members[0]):
-            self._part(members, replace(origin, names=part))
+            self.read_part(members, replace(origin, names=part))
             return
         sides = read_left_sides(self.vocabulary, members)
         called = {
@@ -338,11 +338,14 @@ class EquationReader:
         self.found.answers += [self.found.answer((name,), member, origin) for name, member in linear]
         return found is not None or bool(linear)
 
-    def _part(self, members: list[list[Token]], origin: Origin) -> None:
-        """The entries of one row or column of a matrix, each as an answer of its own."""
+    def read_part(self, members: list[list[Token]], origin: Origin) -> None:
+        """The entries of a row, a column or a vector of derivatives, each as an answer of its own."""
         found = read_right_side(self.vocabulary, members[-1])
         if isinstance(found, ReadError):
             self.found.not_recognized.append(origin.of(members, found.message))
+            return
+        if found.is_definition:
+            self.found.left_alone.append(origin.of(members, why_no_value(found)))
             return
         value = found.value
         if not isinstance(value, Grid) or sorted(value.shape) != [1, len(origin.names)]:

@@ -51,8 +51,32 @@ _ALL = frozenset({":", "*", "cdot"})
 _CLOSING = {"(": ")", "{": "}"}
 
 
+_BY_RATES = r"(?:frac)?(?:d|partial)L/?(?:d|partial)(?:dotq|q'|qd|qdot)"
+_DERIVATIVES = {
+    "dLdqd": re.compile(_BY_RATES),
+    "dLdq": re.compile(r"(?:frac)?(?:d|partial)L/?(?:d|partial)q"),
+    "ddt": re.compile(rf"(?:frac)?d/?dt(?:{_BY_RATES})?"),
+}
+_LONGEST_DERIVATIVE = 24
+
+
+def _derivatives(vocabulary: Vocabulary, member: list[Token]) -> tuple[str, ...]:
+    """The derivatives of L by all coordinates, which a left side names at once: ∂L/∂q̇, `dLdqd`."""
+    if len(member) > _LONGEST_DERIVATIVE or len(vocabulary.coordinates) < 2 or "q" in vocabulary.symbols:
+        return ()
+    text = "".join(token.text + "'" * token.dots for token in member if token.kind not in "{}()")
+    kinds = [kind for kind, pattern in _DERIVATIVES.items() if pattern.fullmatch(text)]
+    names = tuple(f"{kind}{q.index}" for kind in kinds for q in vocabulary.coordinates)
+    return names if all(map(vocabulary.is_answer, names)) else ()
+
+
 def part_of(vocabulary: Vocabulary, member: list[Token]) -> tuple[str, ...]:
-    """The entries of the row or the column that a left side names; none of every other side."""
+    """The answers whose values stand below or beside each other where a left side names all of them.
+
+    The entries of a row or a column of a matrix, or the derivatives of L; none of every other side.
+    """
+    if derivatives := _derivatives(vocabulary, member):
+        return derivatives
     if not 6 <= len(member) <= 10 or member[-2].kind not in (*_ALL, "number"):
         return ()
     opening = len(member) - 5

@@ -209,3 +209,23 @@ def test_a_mark_in_a_symmetric_matrix_is_noted_on_that_matrix_alone() -> None:
     answers = report(equation, stem="crane").answers
     assert {answer.name for answer in answers} > {"D", "g"}
     assert {answer.name for answer in answers if SYMMETRIC_NOTE in answer.notes} == {"D"}
+
+
+@pytest.mark.parametrize(("kind", "name"), [
+    ("dLdqd", "dLdqd"), ("dLdqd", "∂L/∂q̇"), ("dLdqd", "dL/dq'"), ("dLdq", "dLdq"), ("dLdq", "∂L/∂q"),
+    ("ddt", "ddt"), ("ddt", "d/dt(∂L/∂q̇)"), ("dLdqd", r"\frac{\partial L}{\partial\dot{\mathbf q}}"),
+])  # fmt: skip
+def test_the_derivatives_of_the_lagrangian_by_all_coordinates_at_once(kind: str, name: str) -> None:
+    problem = read_problem(RUBBED.replace("[friction, tau]", "[dLdqd, dLdq, ddt]"))
+    found = [read_submission(problem, f"$${name} = [m, 2l]$$\n", "a.md")]
+    if name.isalpha():
+        found.append(read_submission(problem, f"answers:\n  {name}: [m, 2*l]\n", "a.yaml"))
+    for one in found:
+        read = [(answer.name, shown(answer)) for answer in one.answers]
+        assert read == [(f"{kind}1", "m"), (f"{kind}2", "2l")]
+
+
+def test_a_vector_of_derivatives_in_names_alone_is_a_definition() -> None:
+    problem = read_problem(RUBBED.replace("[friction, tau]", "[dLdqd, D]"))
+    found = read_submission(problem, r"$$\frac{\partial L}{\partial\dot q} = D\dot q$$", "a.md")
+    assert found.answers == found.not_recognized == () and len(found.left_alone) == 1
