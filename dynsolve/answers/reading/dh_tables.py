@@ -362,6 +362,8 @@ def _lines(row: str, names_answer: Callable[[str], bool]) -> str:
     if len(bars) % 2 == 0 and not between.strip() and not {"=", "$"} & set(row):
         return row  # one row of matrices that are drawn
     cells = [row[a + 1 : b] for a, b in zip(bars, [*bars[1:], len(row)], strict=True)]
+    if cells[-1].lstrip().startswith("="):
+        return row  # a determinant in bars
     pieces = [row[: bars[0]]]
     at = 0
     while at < len(cells):

@@ -343,6 +343,9 @@ _SYMMETRIC = frozenset({"sym", "symm", "symmetric"})
 _WORD_AS_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_\{?[A-Za-z0-9,]+\}?)?")
 _WORDS = frozenset("and og where hvor der with med so such or eller for für alle all då da".split())
 _UNITS = frozenset({"J", "N", "Nm", "rad", "kg"})
+UPRIGHT_UNITS = frozenset("J N Nm kg m s rad kgm Ws".split())
+"""What is a unit where it stands upright, and no symbol of the problem."""
+
 _MODULES = frozenset("sp sym sympy smp np numpy math".split())
 _OF_MODULES = frozenset(
     "sin cos tan sqrt pi Matrix array matrix Rational Derivative diff Integer transpose"
@@ -371,6 +374,8 @@ def token_of_word(token: Token, out: list[Token]) -> Token | None:
         token = token._replace(text=word)
     if _WORD_AS_NAME.fullmatch(word) and word.lower() not in _WORDS:
         return token
+    if (units := word.split()) and UPRIGHT_UNITS.issuperset(units):  # its last word may have a power behind
+        return token._replace(text=units[-1])
     if any(part.strip(",.:;").lower() in _WORDS for part in word.split()):
         return token._replace(kind="separator")
     return None

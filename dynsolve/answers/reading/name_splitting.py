@@ -17,11 +17,22 @@ from msgspec.structs import replace
 
 from dynsolve.answers.reading.grammar.reader import rate
 from dynsolve.answers.reading.grids import Value, symbols_in
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.lexer import UPRIGHT_UNITS, Token
 from dynsolve.answers.reading.vocabulary import ENERGY_LEVELS, ZERO_LEVELS, Meaning, Vocabulary, spellings
 from dynsolve.answers.verdict import Answer
 from dynsolve.notation.characters import split
-from dynsolve.notation.tree import Negative, Node, Number, Product, Quotient, Sum, Symbol, children, walk
+from dynsolve.notation.tree import (
+    Negative,
+    Node,
+    Number,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+    children,
+    names_in,
+    walk,
+)
 from dynsolve.quantities.letters import key
 
 _LONGEST_RUN = 60
@@ -40,10 +51,13 @@ _INVERSE = re.compile(r"a(?:rc)?(?:sin|cos|tan2?)", re.IGNORECASE)
 def split_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = False) -> list[Token]:
     """Runs of letters cut into names: `m_2gL_1` into m_2, g and L_1."""
     out: list[Token] = []
-    script = 0
+    script = power = 0
     for position, token in enumerate(tokens):
+        if position < power:
+            continue
         if token.kind == "text":
             if not _is_name(token, tokens[position + 1 : position + 2], vocabulary, naming):
+                power = _behind_power(tokens, position + 1)
                 continue
             token = token._replace(kind="name")
         if token.kind == "{" and out and out[-1].kind in ("_",):
@@ -80,12 +94,16 @@ _ARGUMENTS = frozenset({"(", "{", "name", "letter", "number", "fraction", "^", "
 """What may follow the name of a function: its argument, or its power."""
 
 
-_UNITS = frozenset("J N Nm kg m s rad kgm Ws".split())
+def _behind_power(tokens: list[Token], start: int) -> int:
+    """Where it goes on behind the power of a unit, which is left out with it."""
+    kinds = [token.kind for token in tokens[start : start + 5]]
+    powers = (["raised"], ["^", "number"], ["^", "{", "number", "}"], ["^", "{", "-", "number", "}"])
+    return start + max((len(power) for power in powers if kinds[: len(power)] == power), default=0)
 
 
 def _is_name(text: Token, after: list[Token], vocabulary: Vocabulary, naming: bool) -> bool:
     r"""Whether a `\text{...}` is a name set upright, and no word or unit beside the formula."""
-    if not naming and text.text in _UNITS and vocabulary.symbol(text.text) is None:
+    if not naming and text.text in UPRIGHT_UNITS and vocabulary.symbol(text.text) is None:
         return False
     if (after and after[0].kind in ("_", "^", "'")) or len(text.text) == 1 or text.text[-1].isdigit():
         return True
@@ -183,7 +201,8 @@ def keep_symbol(vocabulary: Vocabulary, name: str, dots: int, value: Value, in_p
 def gives_new_meaning(vocabulary: Vocabulary, name: str, value: Value) -> bool:
     r"""Whether `\theta_2 = q_1 + q_2` gives another meaning to what would be read as a coordinate."""
     if vocabulary.is_vector(name) and name not in vocabulary.symbols:  # θ is q₂ alone, and no column
-        return isinstance(value, Node) and rate(value, vocabulary, 1) is not None
+        is_scalar = name == "Theta" and isinstance(value, Node) and bool(names_in(value))
+        return is_scalar or (isinstance(value, Node) and rate(value, vocabulary, 1) is not None)
     usual = vocabulary.others.get(name)
     if usual is None or usual.dots or vocabulary.coordinate(usual) is None or isinstance(value, Symbol):
         return False

@@ -30,6 +30,7 @@ from dynsolve.robot.questions import reference
 # Letters of the derivation that have no value for this robot
 
 _ANGLES = ("theta", "phi", "varphi", "th")
+_RATE_OF_ANGLE = re.compile(r"(?P<d>d{1,2})?(?P<name>theta|phi|varphi|th)(?P<dots>dot|ddot|dotdot)?")
 _POTENTIAL = re.compile(r"P.*|L")
 _LETTERS = re.compile(r"(?:z|o|R|r|p|x|y|e|n|a|u|s)(?:[0-9a-z]*|[xyz]theta[0-9]*|[xyz],?[qt].*)")
 _UNIT_VECTORS = "ijk"
@@ -60,6 +61,18 @@ def only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
     reader.notes.setdefault(f"{form.text} is read as {symbol.name}")
     skip_arguments(reader)
     return reader.with_scripts(value, form.scripts, form.start)
+
+
+def _only_rate(reader: Reader, form: Form, name: str) -> Value | None:
+    """The rate of the only angle in letters: dth, thdot, th_ddot."""
+    found = _RATE_OF_ANGLE.fullmatch(name)
+    order = len(found["d"] or "") + (found["dots"] or "").count("d") if found else 0
+    if found is None or not 0 < order + form.dots < 3 or (found["d"] and found["dots"]):
+        return None
+    form.dots += order
+    value = only_coordinate(reader, form, found["name"])
+    form.dots -= order
+    return value
 
 
 def zero_level(reader: Reader, form: Form, name: str) -> Value | None:
@@ -151,7 +164,8 @@ def _without_value(reader: Reader, form: Form, name: str) -> Value | None:
 
 
 _READINGS = (
-    only_coordinate, _held_forces, _unit_vector, _coordinates, _references, _spelled_rates, _without_value,
+    only_coordinate, _only_rate, _held_forces, _unit_vector, _coordinates, _references, _spelled_rates,
+    _without_value,
 )  # fmt: skip
 """What a letter may be, in the order in which it is tried."""
 

@@ -33,6 +33,7 @@ from dynsolve.quantities.family import Owner
 from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.letters import key
 from dynsolve.questions import newton_euler
+from dynsolve.questions.forward_dynamics import QDD_FORWARD
 from dynsolve.questions.parameters import REFERENCE
 from dynsolve.robot.model import JointType
 
@@ -62,7 +63,7 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
     if names == ("Y",) and REFERENCE in vocabulary.quantities and _has_references(reader):
         names = (REFERENCE,)
     names, framed = _framed(vocabulary.quantities, form, names)
-    if not names:
+    if not names or (names == (QDD_FORWARD.name,) and not reader.naming):  # in a value q̈ is the column
         return None
     skip_arguments(reader)
     reader.names_used += 1

@@ -229,3 +229,13 @@ def test_a_vector_of_derivatives_in_names_alone_is_a_definition() -> None:
     problem = read_problem(RUBBED.replace("[friction, tau]", "[dLdqd, D]"))
     found = read_submission(problem, r"$$\frac{\partial L}{\partial\dot q} = D\dot q$$", "a.md")
     assert found.answers == found.not_recognized == () and len(found.left_alone) == 1
+
+
+@pytest.mark.parametrize("rate", [r"\ddot q", r"\ddot{\mathbf q}", " qddot", " q''"])
+def test_accelerations_are_no_answer_in_the_model_though_they_are_asked_for(rate: str) -> None:
+    free = RUBBED.replace("friction: {q1: {viscous: b1, coulomb: fc}, q2: b2}", "")
+    judge = Checker(read_problem(free.replace("[friction, tau]", "[tau, D, C, g, qdd_forward]")))
+    model = "D = [[m*l^2, 0], [0, m*l^2]]\nC = [[0, 0], [0, 0]]\ng = [m*g*l*cos(q1), 0]\n"
+    for given, expected in ((model, "correct"), (model.replace("cos", "sin"), "follows")):
+        found = judge(read_submission(judge.problem, f"{given}\n$$\\tau = D{rate} + g$$\n", "a.md"))
+        assert {one.name: str(one.verdict) for one in found.answers}["tau"] == expected

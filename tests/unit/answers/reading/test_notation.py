@@ -53,6 +53,7 @@ def right_and_wrong(name: str, text: str, slip: tuple[str, str], file: str = "re
 
 BEHIND = [
     r"\quad [\mathrm{N\,m}]", r"\;\left[\frac{\mathrm{kg\,m^2}}{\mathrm{s}^2}\right]", r"\ (\text{Nm})",
+    r"\text{kg m}^2", r"\,\text{kg m}^{2}\text{s}^{-2}", r"\text{ kg m}^2/\text{s}^2", r"\text{m}^2",
     r"~\mathrm{N\,m}", r"\ \text{N}\cdot\text{m}", r"\ [\si{N m}]", r"\quad\mathrm{in\ N\,m}",
     r"\neq g_1", "≠ 0", r"\in ℝ", r"\ \forall\, q_1", r"\text{ for all } q", r"\quad\text{für alle } q",
 ]  # fmt: skip

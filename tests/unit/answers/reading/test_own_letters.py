@@ -10,6 +10,7 @@ from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.problem import load, read_problem
 from dynsolve.problem.reader import find
+from tests.unit.answers.reading.submissions import report, shown
 
 PENDULUM = """
 gravity: [0, 0, -g]
@@ -264,3 +265,19 @@ def test_a_name_of_the_own_that_makes_an_answer_right_is_none(
             found = {one.name: one.verdict.value for one in report.answers}
             assert tuple(map(found.get, names)) == expected
             assert len(report.set_aside) == (expected[1] is None)
+
+
+@pytest.mark.parametrize("rate", ["dth", "thdot", "th_dot", "th'"])
+def test_the_rate_of_the_only_angle_by_another_letter(rate: str) -> None:
+    (answer,) = report(f"K = m*l^2*{rate}^2", "a.txt", stem="cart-pole").answers
+    assert shown(answer) == "m l² θ̇²"
+
+
+def test_a_letter_of_the_coordinates_that_is_given_a_scalar_is_one() -> None:
+    (answer,) = report("Theta = I1 + m1 lc1^2\nK = Theta/2", "a.txt").answers
+    assert shown(answer) == "(I₁ + m₁ l_c1²)/2"
+
+
+def test_bars_around_the_jacobian_begin_no_table() -> None:
+    found = report("|J| = 2*sin(q2)", "a.txt", stem="planar-rrp-task")
+    assert [(one.name, one.fault) for one in found.answers] == [("det", "")]
