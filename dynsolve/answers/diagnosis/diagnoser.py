@@ -242,10 +242,13 @@ class Diagnoser:
             yield replace(one, message=f"{first}{of_entry}{one.message}")
 
     def _of_fractions(self, wrong: WrongEntry) -> Iterator[Diagnosis]:
-        """What differs above the denominator of the nearest value, where the answer's may be that one."""
+        """What differs above the denominator of the nearest value, as the answer writes it."""
         written, nearest = wrong.written.value, fraction_of(wrong.expected[0])
         value, below = nearest.numerator, nearest.denominator
-        if split_sign(self.words.form(below))[0] < 0:
+        ratio = as_expr(cancelled(RationalExpr(written.denominator, below)))
+        if ratio is not None and ratio.is_number:
+            value, below = value * ratio, written.denominator
+        elif split_sign(self.words.form(below))[0] < 0:
             value, below = -value, -below
         if written.numerator.is_number and written.denominator.is_number:
             value, below = substituted(value, self._numbers), substituted(below, self._numbers)

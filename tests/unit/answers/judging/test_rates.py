@@ -68,6 +68,24 @@ def test_a_slip_above_a_denominator_is_told(entry: str, says: str) -> None:
     assert [one.message for one in found.diagnosis if says in one.message]
 
 
+@pytest.mark.parametrize(("factor", "below"), [("1", "3M + 2m sin²(γ)"), ("1/2", "3M/2 + m sin²(γ)")])
+def test_the_denominator_is_that_which_the_answer_has(factor: str, below: str) -> None:
+    hub = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, gamma: revolute}
+  bodies:
+    - {mass: M, at: [x, R, 0], turn: -x/R, about: [0, 0, 1], inertia: {zz: M*R^2/2}}
+    - {mass: m, at: [x + l*sin(gamma), R - l*cos(gamma), 0]}
+passive: [gamma]
+find: [qdd_forward]
+"""
+    above = "2*f1 + m*g*sin(2*gamma) - 2*m*l*gamma_dot^2*sin(gamma)"
+    wrong = f"({factor})*({above})/(({factor})*(3*M + 2*m*sin(gamma)^2))"
+    found = judged(hub, "qdd_forward", [[wrong], ["0"]])
+    assert [one.message for one in found.diagnosis if one.message.startswith(f"Over {below}: The sign of ")]
+
+
 def test_only_the_number_with_the_wrong_sign_is_told() -> None:
     """Sapienza Robotics 1, exam 11 September 2019, exercise 1: (16, -0.125, -5.375)."""
     arm = """
