@@ -33,6 +33,9 @@ from dynsolve.robot.model import Body, Robot
 Place = tuple[tuple[Expr, ...], tuple[Bound, ...]]
 """What is 0 together there, and what the parameters must satisfy for that to be somewhere."""
 
+MOST_TERMS = 12
+"""The terms of a factor of det D up to which a reader sees where it is 0."""
+
 
 def without_inverse(robot: Robot, values: Derivation) -> list[Place] | None:
     """All places where D has no inverse, being positive definite elsewhere; None where these are not seen."""
@@ -57,7 +60,7 @@ def without_inverse(robot: Robot, values: Derivation) -> list[Place] | None:
 def some_without_inverse(robot: Robot, det: Expr) -> list[Place]:
     """Places where a factor of det D is 0, where it is not seen which are all."""
     signs = ParameterSigns(robot.questions.model.assumed)
-    places = _possible(_moving(det), signs)
+    places = _possible([one for one in _moving(det) if len(one[0]) <= MOST_TERMS], signs)
     return [(zeros, bounds) for zeros, bounds in places if is_seen(zeros, signs)]
 
 
