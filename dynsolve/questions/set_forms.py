@@ -120,7 +120,8 @@ class SetForms(Inequalities):
         shown: list[tuple[Node, int]] = []
         for factor, exponent in trig_factors(value):
             if ring.depends_on_coordinates(factor):
-                node, signed = self._signed(factor)
+                whole = 1 if self.robot.has_decimals else lcm(*(int(c.q) for c in factor.poly.coeffs()))
+                node, signed = self._signed(factor * whole)
                 shown.append((node, exponent))
                 product = product * signed**exponent
             else:

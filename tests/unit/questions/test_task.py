@@ -108,6 +108,12 @@ def test_a_determinant_is_expanded_before_it_is_simplified() -> None:
     assert line.by[0] == "Along row 3, each entry times the determinant that is left, signs in turn, with "
 
 
+def test_a_number_drawn_out_of_a_factor_leaves_no_fraction_in_it() -> None:
+    arm = "dh: [{theta: a*, a: 3}, {theta: b*, a: 2}, {theta: c*, a: 1}]\ntask: [tip.x, tip.y, a + b + c]\n"
+    (line,) = steps(f"{arm}find: [det]")["det"].lines
+    assert "(3cos(a) + 2cos(a + b))" in to_unicode(line.formulas[0])
+
+
 def test_a_determinant_names_the_identities_that_its_minors_need() -> None:
     """Of a spherical arm both minors are products with s₁² + c₁², and s₂² stands in one as it is."""
     arm = "dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, alpha: -90deg}, {d: q3*}]\nfind: [det]\n"
