@@ -14,6 +14,7 @@ from typing import Any
 from flint import fmpq_mpoly
 from msgspec import Struct
 
+from dynsolve.algebra.factors import numeric_roots
 from dynsolve.algebra.lowest_terms import lowest_terms
 from dynsolve.algebra.ring import Expr, NoRoom, Ring
 from dynsolve.errors import AlgebraError
@@ -136,7 +137,7 @@ def cancelled(value: RationalExpr) -> RationalExpr:
     """
     if value.divisor is None or is_zero(value.numerator):
         return RationalExpr(value.numerator)
-    plain = _without_common(_without_roots(value))
+    plain = _without_common(_without_root_factors(_without_roots(value)))
     whole = _without_inverses(plain) if plain.ring.inverses else plain
     if whole.divisor is None:
         return min(plain, whole, key=_length)
@@ -145,7 +146,7 @@ def cancelled(value: RationalExpr) -> RationalExpr:
         return min(plain, simplified(plain), whole, key=_length)
     if found == (whole.numerator, whole.divisor):
         return min(plain, whole, key=_length)
-    lowest = _without_common(RationalExpr(*found))
+    lowest = _without_common(_without_root_factors(RationalExpr(*found)))
     return min(_with_inverses(lowest, like=plain), lowest, key=_length)
 
 
@@ -231,6 +232,15 @@ def _without_roots(value: RationalExpr) -> RationalExpr:
         if len(below) > len(divisor):
             break
         numerator, divisor = above, below
+    return RationalExpr(numerator, divisor)
+
+
+def _without_root_factors(value: RationalExpr) -> RationalExpr:
+    """√2 v/(2 l), which is v/(√2 l)."""
+    ring, numerator, divisor = value.ring, value.numerator, value.denominator
+    for index in numeric_roots(ring):
+        if all(exponents[index] for exponents in divisor.poly.monoms()):
+            numerator, divisor = numerator * ring.generator(index), divisor * ring.generator(index)
     return RationalExpr(numerator, divisor)
 
 

@@ -288,3 +288,15 @@ def test_the_formula_of_weighted_rates_holds_where_the_rank_is_less() -> None:
     W = np.diag([1 / 2, 1, 1])
     ours = [float(sympify(rate).subs("v", 1)) for rate in results["qd"]]
     assert ours == pytest.approx(W @ J.T @ np.linalg.pinv(J @ W @ J.T) @ [1, 0])
+
+
+def test_no_root_of_a_number_is_a_factor_below() -> None:
+    elbow = """
+gravity: none
+dh: [{theta: q1*, d: h, alpha: 90deg}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+velocity: [0, v, 0]
+state: {q2: 45deg, q3: 90deg}
+find: [qd]
+"""
+    found = dynsolve.solve(elbow).to_json()["results"]["qd"]
+    assert found[:2] == ["sqrt(2)*v*cos(q1)/(l2 - l3)", "-sqrt(2)*v*sin(q1)/(2*l2)"]
