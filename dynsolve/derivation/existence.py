@@ -321,9 +321,9 @@ def _changes_sign(value: Expr, signs: ParameterSigns) -> bool:
     ring, degrees = value.ring, value.poly.degrees()
     for name in coordinates_in(value):
         degree = int(degrees[ring.symbol_indices[name, 0]])
-        if degree > 0 and not ring.depends_on_coordinates(leading := _leading(value, name, degree)):
-            ways = (1, -1) if degree % 2 else (1,)
-            seen |= {way * sign for sign in (1, -1) if signs.is_positive(leading * sign) for way in ways}
+        ways = (1, -1) if degree % 2 else (1,)
+        for _, (far,) in at_quarters([_leading(value, name, degree)]) if degree > 0 else ():
+            seen |= {way * sign for sign in (1, -1) if signs.is_positive(far * sign) for way in ways}
     return len(seen) == 2
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from math import prod
+from math import gcd, prod
 
 from dynsolve.notation.tree import (
     ONE,
@@ -179,6 +179,8 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
             above.append(power(inner, exponent))
         else:
             below.append(power(inner, -exponent))
+    for line, exponent in ((above, 1), (below, -1)):
+        coefficient = coefficient * Fraction(_one_root(line)) ** exponent
     if not coefficient:
         return ZERO
     if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
@@ -194,6 +196,28 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     else:
         node = _fraction(size, above, below)
     return Negative(node) if coefficient < 0 else node
+
+
+def _one_root(factors: list[Node]) -> int:
+    """Make one of all roots of whole numbers, √2 √3 = √6; given is what comes out, 2 of √2 √6 = 2 √3.
+
+    >>> from dynsolve.notation.unicode import to_unicode
+    >>> to_unicode(times(1, [(Function("sqrt", Number(root)), 1) for root in (2, 6)]))
+    '2√3'
+    """
+    front = under = 1
+    roots = []
+    for factor in factors:
+        match factor:
+            case Function("sqrt", Number(p, 1)):
+                common = gcd(p, under)
+                front, under = front * common, p * under // common**2
+                roots.append(factor)
+    if len(roots) > 1:
+        factors[:] = [one for one in factors if one not in roots]
+        if under != 1:
+            factors.insert(0, Function("sqrt", Number(under)))
+    return front
 
 
 def number_in_front(node: Node) -> Node:

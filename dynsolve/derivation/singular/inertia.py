@@ -57,11 +57,14 @@ def without_inverse(robot: Robot, values: Derivation) -> list[Place] | None:
     return None
 
 
-def some_without_inverse(robot: Robot, det: Expr) -> list[Place]:
-    """Places where a factor of det D is 0, where it is not seen which are all."""
+def some_without_inverse(robot: Robot, det: Expr) -> tuple[list[Place], bool]:
+    """Places where a factor of det D is 0, and whether these are surely all."""
     signs = ParameterSigns(robot.questions.model.assumed)
-    places = _possible([one for one in _moving(det) if len(one[0]) <= MOST_TERMS], signs)
-    return [(zeros, bounds) for zeros, bounds in places if is_seen(zeros, signs)]
+    places = list(_possible(_moving(det), signs))
+    seen = [
+        (zeros, bounds) for zeros, bounds in places if len(zeros[0]) <= MOST_TERMS and is_seen(zeros, signs)
+    ]
+    return seen, len(seen) == len(places)
 
 
 def _of_given(robot: Robot, D: Matrix) -> list[Place] | None:
@@ -88,16 +91,26 @@ def _possible(sets: Sequence[tuple[Expr, ...]], signs: ParameterSigns) -> Iterat
 
 
 def of_parameters(robot: Robot, det: Expr) -> list[Expr]:
-    """The factors of det D without coordinates that are 0 where two parameters are alike: R - r."""
+    """The factors of det D that are 0 for some parameters, whatever the coordinates are: R - r, sin β."""
     signs = ParameterSigns(robot.questions.model.assumed)
     return [
         factor
         for factor, _ in trig_factors(det)
         if not robot.ring.depends_on_coordinates(factor)
-        and len(factor) == 2
-        and len({size > 0 for size in factor.poly.coeffs()}) == 2
+        and (_has_both_signs(factor) or _is_turned(factor))
         and not signs.open_part(factor).is_number
     ]
+
+
+def _has_both_signs(factor: Expr) -> bool:
+    """Whether it is one parameter less another."""
+    return len(factor) == 2 and len({size > 0 for size in factor.poly.coeffs()}) == 2
+
+
+def _is_turned(factor: Expr) -> bool:
+    """Whether it is the sine or the cosine of a constant angle."""
+    kinds = {factor.ring.generators[k].kind for k, power in enumerate(factor.poly.degrees()) if power}
+    return len(factor) == 1 and kinds <= {"sin", "cos"}
 
 
 def is_of_a_body(values: Derivation, body: Body) -> bool:

@@ -89,13 +89,14 @@ def _singular(context: Context, seen: list[Place] | None) -> Step | None:
     value = matrix.determinant(context.values["D"])
     zero = next((i for i, row in enumerate(rows, 1) if all(entry.is_zero for entry in row)), 0)
     equal = next(((i, j) for (i, a), (j, b) in combinations(enumerate(rows, 1), 2) if a == b), (0, 0))
-    places = [] if value.is_zero else [*_vanishing(context, value, seen)]
+    moving, is_all = some_without_inverse(context.robot, value) if seen is None else (seen, True)
+    places = [] if value.is_zero else [*_vanishing(context, value, moving)]
     if not (value.is_zero or places):
         return None
     reason = "In every pose {det}"
     if places:
         follows = cost(context.show(value)) <= LONGEST and all(len(zeros) == 1 for zeros, _ in seen or ())
-        reason = f"{'{det}, so ' * follows}$𝐃$ has no inverse where {{places}}"
+        reason = f"{'{det}, so ' * follows}$𝐃$ has no inverse{' at least' * (not is_all)} where {{places}}"
     elif zero:
         reason = "In every pose row {zero} of $𝐃$ is 0, so {det}"
     elif any(equal):
@@ -107,7 +108,7 @@ def _singular(context: Context, seen: list[Place] | None) -> Step | None:
         zero=zero,
         i=equal[0],
         j=equal[1],
-        places=listed(places, "or"),
+        places=listed(places, "or where"),
     )
     in_poses = names_in(as_row(listed(places))) & {*context.robot.ring.names}
     where = (" in some poses" if in_poses else " for some parameters") if places else ""
@@ -124,10 +125,10 @@ def _singular(context: Context, seen: list[Place] | None) -> Step | None:
 _ELSE = " For other parameters $𝐃$ is positive definite."
 
 
-def _vanishing(context: Context, value: Expr, seen: list[Place] | None) -> Iterator[Prose]:
+def _vanishing(context: Context, value: Expr, moving: list[Place]) -> Iterator[Prose]:
     """Where D has no inverse: in some poses, or where R = r, of parameters that may be alike."""
     compare = Inequalities(context.robot).inequality
-    for zeros, bounds in some_without_inverse(context.robot, value) if seen is None else seen:
+    for zeros, bounds in sorted(moving, key=lambda place: len(place[1])):
         equations = [equation(without_signs(context.show(zero)), ZERO) for zero in zeros]
         possible = say(", which is possible if {bounds}", bounds=listed([*map(compare, bounds)]))
         yield (*listed(equations), *(possible if bounds else ()))

@@ -151,7 +151,7 @@ def test_what_stands_beside_a_matrix_does_not_matter() -> None:
     assert results["M"] == alone["M"]
     assert results["N"]["verdict"] == "if"
     model = (
-        f"model:\n  coordinates: {{q1: revolute, q2: revolute, q3: revolute}}\n  D: {twice}\n  P: a*cos(q2)\n"
+        f"model:\n  coordinates: {{q1: revolute, q2: revolute, q3: revolute}}\n  D: {twice}\n  P: e*cos(q2)\n"
     )
     assert solve_json(f"{model}find: [definite, g]\n")["results"]["definite"] == alone["M"]
 

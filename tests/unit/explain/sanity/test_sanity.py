@@ -278,6 +278,8 @@ motors:
   - {turns: q2, inertia: Im2, ratio: n2, carrier: 1}
   - {turns: q3, inertia: Im3, ratio: n3, carrier: 2}
 """
+POLAR = "dh: [{theta: q1*, a: e, alpha: 90deg}, {theta: q2*, alpha: 90deg}, {d: q3*}]\nmasses: [{mass: m, link: 3}]\n"
+CONE = "dh: [{theta: q1*, d: h, alpha: beta}, {theta: q2*, a: l}]\nmasses: [{mass: m, link: 2}]\n"
 QUARTER = math.pi / 2
 
 
@@ -289,6 +291,8 @@ QUARTER = math.pi / 2
         (OFFSET_3, "e + f cos(q₂) = 0 and cos(q₂ + q₃) = 0", "f ≥ e", {"e": 0.6, "f": 0.8},
          {"e": 0.8, "f": 0.6}, {"q2": math.acos(-0.75), "q3": QUARTER - math.acos(-0.75)}),
         (LYING, "cos(u₂) = 0 and u₃ = 0", "", {}, {}, {"u2": -QUARTER, "u3": 0}),
+        (POLAR, "q₃ = 0 or where e + q₃ sin(q₂) = 0", "", {"e": 0.6}, {}, {"q2": -QUARTER, "q3": 0.6}),
+        (CONE, "cos(q₂) = 0 or where sin(β) = 0", "", {}, {}, {"beta": math.pi}),
         (GIVEN, "b² cos²(q) - a c = 0", "b² ≥ a c", {"a": 2, "b": 2, "c": 1}, {"a": 2, "b": 1.4, "c": 1},
          {"q": math.acos(0.5**0.5)}),
     ],
