@@ -390,9 +390,11 @@ def leading_names(robot: Robot) -> list[str]:
     rotors = [name for motor in robot.actions.rotors for name in _linear_names(motor.inertia)]
     inertias = [name for tensor in given for entry in tensor.entries for name in _linear_names(entry)]
     if robot.given is not None:
-        dimensions, parameters = Dimensions(robot.ring, robot), robot.ring.parameters
-        of = {name: dimensions.of(robot.ring.symbol(name)) for name in parameters}
-        masses, inertias = ([name for name in parameters if of[name] == each] for each in (MASS, INERTIA))
+        model = robot.given.D or robot.given.K or robot.given.L
+        ring = robot.ring if model is None else model.ring
+        dimensions = Dimensions(ring, robot)
+        of = {name: dimensions.of(ring.symbol(name)) for name in ring.parameters}
+        masses, inertias = ([name for name in of if of[name] == each] for each in (MASS, INERTIA))
     return list(dict.fromkeys([*masses, *inertias, *rotors]))
 
 

@@ -278,7 +278,10 @@ motors:
   - {turns: q2, inertia: Im2, ratio: n2, carrier: 1}
   - {turns: q3, inertia: Im3, ratio: n3, carrier: 2}
 """
-POLAR = "dh: [{theta: q1*, a: e, alpha: 90deg}, {theta: q2*, alpha: 90deg}, {d: q3*}]\nmasses: [{mass: m, link: 3}]\n"
+POLAR = """
+dh: [{theta: q1*, a: e, alpha: 90deg}, {theta: q2*, alpha: 90deg}, {d: q3*}]
+masses: [{mass: m, link: 3}]
+"""
 CONE = "dh: [{theta: q1*, d: h, alpha: beta}, {theta: q2*, a: l}]\nmasses: [{mass: m, link: 2}]\n"
 QUARTER = math.pi / 2
 
