@@ -78,7 +78,8 @@ def placed_scene(problem: Problem, star: bool = True) -> Scene:
     rods = [_way(piece, pose) for piece in pose.pieces if piece.kind is Kind.ROD]
     disks = [path for body in bodies if pose.rolls(body) for path in _body(body, pose)]
     others = [path for body in bodies if not pose.rolls(body) for path in _body(body, pose)]
-    seen = (*lines, *disks, *rods, *others)
+    solid = (*disks, *rods, *others)
+    seen = (*lines, *solid)
     notes.taken.add(seen)
     notes.solid.add([*disks, *others])
     _world(pose, notes)
@@ -94,7 +95,7 @@ def placed_scene(problem: Problem, star: bool = True) -> Scene:
         tilt(pose.robot, pose.gravity, pose.view, notes)
         gravity_arrow(pose.gravity, pose.view, seen, notes)
     labels = place(notes.wanted, notes.taken, notes.lengths)
-    drawn = (*notes.behind, *seen, *notes.paths, *leads(labels))
+    drawn = (*lines, *notes.behind, *solid, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Bodies",
         " ".join([_caption(pose, labels), *said]),
@@ -334,7 +335,7 @@ def _draw(of: Expr, name: Node, pose: PlacedPose, turning: Sequence[Turning], no
     """Draw a spring where what it is stretched by is seen; whether there is such a place."""
     ends = _ends(of, pose)
     if ends is not None:
-        draw_spring(zigzag(*_apart(*ends, pose, notes)), name, notes)
+        draw_spring(zigzag(*_apart(*ends, pose, notes)), name, notes, behind=True)
         return True
     ring = pose.robot.ring
     for turned in turning:
@@ -360,14 +361,12 @@ def _ends(of: Expr, pose: PlacedPose) -> tuple[Place, Place] | None:
 
 
 def _apart(first: Place, second: Place, pose: PlacedPose, notes: Notes) -> tuple[Point, Point, float]:
-    """The ends on paper, at the edge of a body, and how far beside their line there is room."""
-    a, b = pose.point(first), pose.point(second)
-    way = toward(a, b)
+    """The ends on paper, in their line at the edge of a body, and how far beside it there is room."""
+    ends = pose.point(first), pose.point(second)
+    way = toward(*ends)
     centers = {pieces[-1].end for pieces in pose.ways if pieces}
-    a, b = (
-        moved(a, way, _HALF if first in centers else 0.0),
-        moved(b, way, -_HALF if second in centers else 0.0),
-    )
+    a = moved(ends[0], way, _HALF if first in centers else 0.0)
+    b = moved(ends[1], way, -_HALF if second in centers else 0.0)
 
     def crowded(beside: float) -> float:
         p, q = (moved(moved(end, way, off), (-way[1], way[0]), beside) for end, off in ((a, 5.0), (b, -5.0)))
@@ -375,7 +374,7 @@ def _apart(first: Place, second: Place, pose: PlacedPose, notes: Notes) -> tuple
 
     beside = min(_BESIDE, key=crowded)
     notes.solid.add([Path(paths.line(*zigzag(a, b, beside)))])
-    return a, b, beside
+    return (*ends, beside) if beside else (a, b, beside)
 
 
 def _dashpot(a: Point, b: Point, beside: float, name: Node, notes: Notes) -> None:
@@ -394,5 +393,5 @@ def _dashpot(a: Point, b: Point, beside: float, name: Node, notes: Notes) -> Non
         paths.line(at(middle, _CUP_HALF - 2), at(middle, 2 - _CUP_HALF)),
         paths.line(at(middle, 0.0), at(reach, 0.0), b),
     )
-    notes.draw(*(Path(line, paths.BLACK, 1.4) for line in lines))
+    notes.draw(*(Path(line, paths.BLACK, 1.4) for line in lines), behind=True)
     notes.label(name, [at(middle, _CUP_HALF), at(middle, -_CUP_HALF)], (0.0, 0.0), paths.BLACK, "damper")

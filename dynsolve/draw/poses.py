@@ -453,11 +453,11 @@ def springs(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> No
             draw_spring(zigzag(pose.view.point(leg.foot), pose.view.point(leg.head), _BESIDE), name, notes)
 
 
-def draw_spring(points: Iterator[Point], name: Node, notes: Notes) -> None:
+def draw_spring(points: Iterator[Point], name: Node, notes: Notes, *, behind: bool = False) -> None:
     """A spring along its points, and its stiffness."""
     line = list(points)
     path = paths.line(*line)
-    notes.draw(Path(path, paths.WHITE, 3.0), Path(path, paths.BLACK, 1.2))
+    notes.draw(Path(path, paths.WHITE, 3.0), Path(path, paths.BLACK, 1.2), behind=behind)
     notes.label(name, line[:: len(line) // 6], (0.0, 0.0), paths.BLACK, "spring")
 
 
