@@ -261,7 +261,7 @@ class Diagnoser:
         if is_zero(case.mine + case.expected):
             whole = as_expr(cancelled(RationalExpr(value, below)))
             is_term = whole is not None and len(parts(whole)) == 1
-            told = slip("sign", term=self.words.of(whole)) if whole and is_term else None
+            told = slip("sign", term=self.words.of(-whole)) if whole and is_term else None
             yield told or slip("sign_all", yours=wrong.called)
             return
         for explain in _OF_TERMS:
@@ -316,7 +316,7 @@ class Diagnoser:
         mend = Exchange(expected, self.ring.constant(ratio), self.ring.one)
         if ratio == -1:
             one_term = len(parts(mine)) == 1
-            term, called = self.words.of(expected), case.wrong.called
+            term, called = self.words.of(mine), case.wrong.called
             told = slip("sign", term=term) if one_term else slip("sign_all", yours=called)
         else:
             told = multiplied(self.words, case.wrong.called, ratio)

@@ -167,7 +167,7 @@ class Exchanges:
             strange = self._strange(mend.have)
             assert strange is not None
             return slip("unknown_symbol", part=words.generator(strange))
-        term = mend.have if one.code == "extra_term" else mend.want
+        term = mend.have if one.code in ("sign", "extra_term") else mend.want
         left_out = mend.written == self.ring.one
         return slip(
             one.code,

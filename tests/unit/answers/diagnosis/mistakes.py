@@ -157,7 +157,7 @@ def mended(message: str, mine: float, seed: int, read: Callable[[str], Node]) ->
             swapped = _swapped(formulas["y"], formulas["p"], formulas["o"])
             exchanged.append(mine - y + value(swapped, seed))
         return {
-            "sign": [mine + 2 * t],
+            "sign": [mine - 2 * t],
             "all": [-mine],
             "number": [mine + (o - y) * t],
             "times": [mine / p],

@@ -58,7 +58,7 @@ def test_the_sign_of_a_fraction_is_told() -> None:
     ("entry", "says"),
     [
         ("-(vx*(l1*cos(q1) - l2*cos(q1+q2)) + vy*(l1*sin(q1) + l2*sin(q1+q2)))/(l1*l2*sin(q2))",
-         "Over l₁ l₂ s₂: The sign of -v_x l₂ c₁₂ is wrong."),
+         "Over l₁ l₂ s₂: The sign of v_x l₂ c₁₂ is wrong."),
         ("-(vx*(l1*cos(q1) + l2*sin(q1+q2)) + vy*(l1*sin(q1) + l2*sin(q1+q2)))/(l1*l2*sin(q2))",
          "where c₁₂ belongs"),
     ],
@@ -96,7 +96,7 @@ state: {q1: 90deg, q2: 45deg, q3: 90deg, q1': 1, q2': 2, q3': -2}
 find: [qdd]
 """
     found = judged(arm, "qdd", [["16"], ["0.125"], ["-5.375"]])
-    assert [one.message for one in found.diagnosis] == ["The sign of -⅛ is wrong."]
+    assert [one.message for one in found.diagnosis] == ["The sign of ⅛ is wrong."]
 
 
 def test_rates_follow_from_a_jacobian_that_is_wrong() -> None:
