@@ -21,7 +21,7 @@ from dynsolve.algebra.fraction import RationalExpr, same
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.slips import slip, told
-from dynsolve.answers.diagnosis.wrong_entry import WrongEntry
+from dynsolve.answers.diagnosis.wrong_entry import WrongEntry, multiplied_back
 from dynsolve.answers.judging.answer_values import AnswerValue
 from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.judging.explanation import Explanations, entry_of
@@ -230,7 +230,7 @@ class AnswerJudge:
     def _wrong_entry(self, name: str, compared: KeyComparison, i: int, j: int) -> WrongEntry:
         key = self.hand_in.compare.key(compared.target)
         expected = (*self.explanations.expected(compared.target), key)
-        return WrongEntry(
+        wrong = WrongEntry(
             name=name,
             target=compared.target,
             written=compared.rows[i][j],
@@ -239,6 +239,7 @@ class AnswerJudge:
             column=j,
             called=_called(name, compared, i, j),
         )
+        return multiplied_back(wrong) if compared.answer_value.answer.is_equation else wrong
 
     # -- where it was given several times ----------------------------------------------------------
 

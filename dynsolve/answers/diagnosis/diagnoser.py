@@ -30,7 +30,17 @@ from dynsolve.answers.diagnosis.exchanges import (
     ratio_of,
 )
 from dynsolve.answers.diagnosis.factors import FactorPairs
-from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, Renaming, is_small, mends, parts
+from dynsolve.answers.diagnosis.mends import (
+    Exchange,
+    Mend,
+    Redoing,
+    Renaming,
+    in_common,
+    is_small,
+    likeness,
+    mends,
+    parts,
+)
 from dynsolve.answers.diagnosis.own_steps import OF_THE_MATRIX, DerivationSlips, MatrixDiagnoser, OwnSteps
 from dynsolve.answers.diagnosis.slips import SLIPS, slip
 from dynsolve.answers.diagnosis.substitution import substitutions, throughout
@@ -72,19 +82,6 @@ class Explanation(Struct, frozen=True, dict=True):
     def holds(self, case: Case) -> bool:
         """Whether it is true: with the slips mended the answer is what is expected, exactly."""
         return mends(self.mends, case.mine, case.expected)
-
-
-def in_common(a: Expr, b: Expr) -> int:
-    """How many terms two values share."""
-    if not a.poly or not b.poly:
-        return 0
-    return len(a.poly.to_dict().items() & b.poly.to_dict().items())
-
-
-def likeness(a: Expr, b: Expr) -> Fraction:
-    """The share of the terms of two values that they have in common."""
-    same = in_common(a, b)
-    return Fraction(same, max(len(a) + len(b) - same, 1))
 
 
 MOST_NAMED = 4
@@ -156,7 +153,11 @@ class Diagnoser:
         found = tuple(dict.fromkeys((*numbers, *self._named(wrong, mine))))
         if any(one.code == "numbers_for_letters" for one in found):
             return found
-        return (*found, *(d for d in self.dimension_check(wrong, mine) if d not in found))
+        found = (*found, *(d for d in self.dimension_check(wrong, mine) if d not in found))
+        if wrong.factor is None or wrong.factor == self.ring.one:
+            return found
+        by = self.words.of(wrong.factor)
+        return tuple(replace(one, message=f"Multiplied by {by}: {one.message}") for one in found)
 
     def of_coriolis(self, row: WrongEntry, compared: KeyComparison) -> tuple[Diagnosis, ...]:
         """The slips in a row of C q̇: said of one entry of C, where this alone is not Christoffel's."""

@@ -16,6 +16,7 @@ in common are told apart by this factor alone.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from fractions import Fraction
 from math import prod
 from typing import Any, Protocol
 
@@ -70,6 +71,19 @@ def parts(expr: Expr) -> dict[Monomial, Expr]:
         monomial = tuple((i, int(e)) for i, e in enumerate(exponents) if e and i not in turning)
         groups.setdefault(monomial, {})[exponents] = value
     return {m: Expr(expr.ring, expr.ring.ctx.from_dict(terms)) for m, terms in groups.items()}
+
+
+def in_common(a: Expr, b: Expr) -> int:
+    """How many terms two values share."""
+    if not a.poly or not b.poly:
+        return 0
+    return len(a.poly.to_dict().items() & b.poly.to_dict().items())
+
+
+def likeness(a: Expr, b: Expr) -> Fraction:
+    """The share of the terms of two values that they have in common."""
+    same = in_common(a, b)
+    return Fraction(same, max(len(a) + len(b) - same, 1))
 
 
 def monomial_expr(ring: Ring, monomial: Monomial) -> Expr:

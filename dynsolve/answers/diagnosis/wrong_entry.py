@@ -9,15 +9,16 @@ from math import isqrt, prod
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.fraction import as_expr
+from dynsolve.algebra.fraction import RationalExpr, as_expr, cancelled
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr
-from dynsolve.answers.diagnosis.mends import Exchange, is_small, monomial_expr, parts
+from dynsolve.answers.diagnosis.mends import Exchange, is_small, likeness, monomial_expr, parts
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.entry_comparison import WrittenEntry
@@ -199,7 +200,8 @@ def _coefficient(node: Node) -> Fraction:
 class WrongEntry(Struct, frozen=True):
     """One scalar that is wrong: what was written, and what its own inputs lead to, the nearest first.
 
-    The last one that is expected is the key.  `called` is what a message calls it.
+    The last one that is expected is the key.  `called` is what a message calls it; by `factor` one side of
+    `... = 0` is multiplied here, since it was divided by that.
     """
 
     name: str
@@ -209,6 +211,7 @@ class WrongEntry(Struct, frozen=True):
     row: int = 0
     column: int = 0
     called: str = "Your answer"
+    factor: Expr | None = None
 
     @property
     def mine(self) -> Expr | None:
@@ -229,6 +232,50 @@ class WrongEntry(Struct, frozen=True):
                 return None
             found = found[self.row, self.column]
         return found if isinstance(found, Expr) else None
+
+
+def multiplied_back(wrong: WrongEntry) -> WrongEntry:
+    """One side of `... = 0` times what it was divided by, with which it is most like what is expected."""
+    written = wrong.written.value
+    mine, denominator = written.numerator, written.denominator
+    if wrong.is_of_fractions or not is_small(mine):
+        return wrong
+    best, most = wrong, Fraction(0)
+    if written.divisor is None:
+        most = max(likeness(mine, value) for value in wrong.expected)
+    for expected in filter(is_small, wrong.expected):
+        for its, own in _factors(mine, expected):
+            factor = as_expr(cancelled(RationalExpr(its * denominator, own)))
+            whole = as_expr(cancelled(RationalExpr(its * mine, own)))
+            if factor is None or whole is None:
+                continue
+            if (alike := likeness(whole, expected)) > most:
+                most, value = alike, replace(wrong.written, value=RationalExpr(whole))
+                best = replace(wrong, written=value, factor=factor)
+    return best
+
+
+def _factors(mine: Expr, expected: Expr) -> Iterator[tuple[Expr, Expr]]:
+    """What is expected before an acceleration, or before what moves, and what is written there."""
+    ring = mine.ring
+    yield ring.one, ring.one
+    for name in ring.names:
+        its, own = (ring.coefficient(value, name, 2) for value in (expected, mine))
+        if not its.is_zero and not own.is_zero:
+            yield its, own
+    theirs, ours = _by_motion(expected), _by_motion(mine)
+    yield from ((its, ours[motion]) for motion, its in theirs.items() if motion in ours)
+
+
+def _by_motion(expr: Expr) -> dict[Exponents, Expr]:
+    """The factors in parameters and numbers of all that moves."""
+    ring = expr.ring
+    still = [g for g in ring.generators if g.kind == "symbol" and not g.dots and g.name not in ring.names]
+    moving = [g for g in ring.generators if g not in still]
+    found: dict[Exponents, dict[Exponents, Any]] = {}
+    for exponents, value in expr.poly.to_dict().items() if expr.poly else ():
+        found.setdefault(_without(exponents, still), {})[_without(exponents, moving)] = value
+    return {motion: Expr(ring, ring.ctx.from_dict(terms)) for motion, terms in found.items()}
 
 
 class DimensionCheck:

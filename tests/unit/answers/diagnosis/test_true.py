@@ -10,9 +10,10 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.mends import parts
 from dynsolve.answers.diagnosis.own_steps import DerivationSlips, MatrixDiagnoser
+from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.verdict import Answer, Place, Submission
 from dynsolve.errors import ExplanationWarning
-from tests.unit.answers.hands import Text, checker, codes, judge, judged
+from tests.unit.answers.hands import Text, checker, codes, judge, judged, problem
 from tests.unit.answers.test_generated import forms, graph
 
 ELBOW, RP = "planar-2r", "in3140-rp"
@@ -258,6 +259,50 @@ def test_fractions_that_a_slip_leads_to_are_told_of_it(name: str) -> None:
         assert str(answer.verdict) == ("correct" if value == right else "wrong"), told
         found |= set(codes(answer))
     assert "rotation_missing" in found
+
+
+HANGING = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, theta: revolute}
+  bodies:
+    - {mass: M, at: [x, 0, 0]}
+    - {mass: m, at: [x + l*sin(theta), -l*cos(theta), 0]}
+passive: [theta]
+find: [tau]
+"""
+
+ATWOOD = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {r: prismatic, theta: revolute}
+  bodies:
+    - {mass: M, at: [0, r, 0]}
+    - {mass: m, at: [r*sin(theta), -r*cos(theta), 0]}
+passive: [r, theta]
+find: [tau]
+"""
+
+
+@pytest.mark.parametrize(
+    ("stem", "equation", "told"),
+    [
+        (HANGING, "l*theta'' + x''*cos(theta) = g*sin(theta)",
+         "Multiplied by m l: The sign of -m g l sin(θ) is wrong."),
+        (HANGING, "l*theta'' + x'' + g*sin(theta) = 0",
+         "Multiplied by m l: In m l ẍ the factor cos(θ) is left out."),
+        (HANGING, "m*l^2*theta'' + m*l*x''*cos(theta) = m*g*l*sin(theta)",
+         "The sign of -m g l sin(θ) is wrong."),
+        (ATWOOD, "(M+m)*r'' - m*r*theta'^2 + M*g = m*g*cos(theta)\ntheta'' = -(r'*theta' + g*sin(theta))/r",
+         "Multiplied by m r²: m r ṙ θ̇ has 1 in front where 2 belongs."),
+        (ATWOOD, "r'' - r*theta'^2 + M*g/m - g*cos(theta) = 0",
+         "Multiplied by m: The term M r̈ is missing."),
+    ],
+)  # fmt: skip
+def test_an_equation_that_was_divided_is_compared_multiplied(stem: str, equation: str, told: str) -> None:
+    """Where no motor drives; the terms alone would lack a mass, and would be of other units."""
+    report = checker(stem)(read_submission(problem(stem), equation, "answer.txt"))
+    assert [d.message for a in report.answers for d in a.diagnosis] == [told]
 
 
 @pytest.mark.filterwarnings("always")
