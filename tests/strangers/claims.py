@@ -609,14 +609,23 @@ def _equilibria(m: Mechanism, s: Sentence, told: tuple[Node, ...], seed: int = 0
     yield from (point for number, point in cases if point is not None and (not named or number == named))
 
 
-@says("Every leading minor is positive in every configuration[ <exactly if|if> {&}].")
+@says(
+    "Every leading minor is positive in every configuration"
+    "[ <exactly if|if> {&}[; this is enough, but may be more than is needed]]."
+)
+@says("Every leading minor is positive in every configuration <exactly if|if> ...either ....")
 def _minors(m: Mechanism, s: Sentence) -> bool:
     """At parameters that meet the conditions; at others it fails in some pose, if they are exact."""
     let = [node for text, nodes in s.before() if text.startswith("Let ") for node in nodes]
     is_exact = "exactly if" in s.text
     seen = set()
+    conditions: list[list[Node]] = []
+    formulas = iter(s.formulas)
+    for k, part in enumerate(s.text.split("either")):
+        of_part = list(islice(formulas, part.count("{}")))
+        conditions += [of_part] if k else [[node] for node in of_part]
     for here in m.points(30):
-        met = all(m.holds(node, here) for node in s.formulas)
+        met = all(any(m.holds(node, here) for node in nodes) for nodes in conditions)
         if not all(m.holds(node, here) for node in let) or not (met or is_exact):
             continue
         least = m.least(lambda p: float(np.min(np.linalg.eigvalsh(s.matrix(p)))), here.names)

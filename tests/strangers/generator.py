@@ -839,6 +839,7 @@ class _Stranger:
             "Mi": [["a1*sin(q2)", "0"], ["0", "a2"]],
             "Mj": [["2 + cos(q2)", "sin(q2)"], ["sin(q2)", self.one(["1", "1/2", "a1"])]],
             "Mk": [["a1", "a2*q1"], ["a2*q1", "a2"]],
+            "Ml": [["a1 + a2*cos(q2) + a3*cos(q2)^2", "0"], ["0", "a4"]],
         }
         self.file["candidates"] = {name: matrices[name] for name in sorted(self.some(list(matrices), 3))}
         if self.chance(0.5):

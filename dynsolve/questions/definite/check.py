@@ -10,12 +10,11 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from random import Random
 
-from dynsolve.algebra.inequality import Bound, opposite
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.elimination import is_positive_definite, pivots
 from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import VerificationError
-from dynsolve.questions.definite.derive import Answer, Definiteness, Refusal
+from dynsolve.questions.definite.derive import Alternatives, Answer, Definiteness, Refusal, failing, hold
 from dynsolve.questions.held import Held
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.questions import Candidate
@@ -46,10 +45,11 @@ def verify_definite(robot: Robot, candidate: Candidate, found: Definiteness, sta
     if found.refusal not in (None, Refusal.INDEFINITE):
         return
     is_no = found.answer is Answer.NO
-    bounds = (*candidate.assumed, *found.conditions)
-    told = [(values, not is_no) for values in _parameters(candidate, bounds, random, states)]
+    assumed = tuple((one,) for one in candidate.assumed)
+    given = (*assumed, *found.conditions)
+    told = [(values, not is_no) for values in _parameters(candidate, given, random, states)]
     for condition in found.conditions if found.is_exact else ():
-        fails = (*candidate.assumed, opposite(condition))
+        fails = (*assumed, *failing(condition))
         told += [(values, False) for values in _parameters(candidate, fails, random, EDGES * states)]
     for parameters, is_told in told:
         poses = list(_poses(robot, parameters, random))
@@ -64,16 +64,16 @@ def verify_definite(robot: Robot, candidate: Candidate, found: Definiteness, sta
 
 
 def _parameters(
-    candidate: Candidate, bounds: Sequence[Bound], random: Random, states: int
+    candidate: Candidate, conditions: Sequence[Alternatives], random: Random, states: int
 ) -> Iterator[dict[str, float]]:
-    """Values of the parameters that satisfy inequalities, some of them 0 or the same."""
+    """Values of the parameters that satisfy conditions, some of them 0 or the same."""
     ring, count = candidate.matrix.ring, 0
     for _ in range(DRAWS):
         values: dict[str, float] = {}
         for name in ring.parameters:
             edge = random.choice((0.0, *values.values()))
             values[name] = random.choice((edge, random.uniform(-2, 2), random.uniform(0.1, 3)))
-        if all(evaluate(b.value, values) >= 1e-3 * b.is_strict for b in bounds):
+        if hold(conditions, values, 1e-3, 0.0):
             count += 1
             yield values
             if count == states:

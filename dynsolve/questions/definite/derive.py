@@ -16,17 +16,17 @@ so one coordinate after the other is taken out.
 
     A + B u,  u a sine or cosine     smallest at u = 1 or u = -1
     A + B u²                         at u = 0 or u = ±1
-    A + B u + C u²                   at u = ±1 where C ≤ 0, or its vertex lies outside; A - B²/(4C) inside
+    A + B u + C u²                   at u = ±1; where its vertex lies between these, A - B²/(4C), so 4AC > B²
     A + B u² + C u⁴                  the same of u² between 0 and 1
     A + B cos θ + C sin θ            A - √(B² + C²), so A > 0 and A² > B² + C²; A > |B| where C = 0
     A + B cos² θ + C sin θ cos θ     the same of 2θ
     A + B d + C d²,  d a length      A - B²/(4C), so C > 0 and 4AC > B²; also A > 0 where B = C = 0
-    A + B d² + C d⁴                  C ≥ 0, and A > 0 at d = 0 where B ≥ 0; A - B²/(4C) where B ≤ 0
+    A + B d² + C d⁴                  C ≥ 0, and A > 0 at d = 0; where B < 0, 4AC > B²
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from functools import cache
 from itertools import islice, permutations
@@ -55,21 +55,23 @@ class Extreme(Struct, frozen=True):
     """An inequality that must hold, and where the function has that value.
 
     `where` is (generator, value) of sines, cosines and lengths, as far as the place is known.  What is not
-    `needed` is enough with the others, and may fail where others are equalities.
+    `needed` is enough with the others, and may fail where others are equalities.  `within` is where the
+    vertex of a parabola counts: only there the inequality must hold.
     """
 
     bound: Bound
     where: tuple[tuple[int, int], ...] = ()
     needed: bool = True
+    within: tuple[Bound, ...] = ()
 
     def at(self, generator: int, value: int, bound: Bound) -> Extreme:
         """The same at a value of a further generator."""
-        return Extreme(bound, (*self.where, (generator, value)), self.needed)
+        return replace(self, bound=bound, where=(*self.where, (generator, value)))
 
     def fails(self, assumed: Sequence[Bound]) -> bool:
         """Whether with this inequality all that is looked for fails, too."""
         value = self.bound.value
-        return follows(opposite(self.bound) if self.needed else Bound(-value), assumed)
+        return not self.within and follows(opposite(self.bound) if self.needed else Bound(-value), assumed)
 
 
 def smallest(f: Expr, assumed: Sequence[Bound]) -> list[Extreme] | None:
@@ -163,18 +165,27 @@ def _in_one(
     A, B, C = coefficients
     strict, least = extreme.bound.is_strict, min(ends)
     at_ends = [extreme.at(u, end, Bound(A + B * end + C * end**2, strict)) for end in ends]
-    outside = (-C, B + C * (2 * least), -B - C * 2)
-    if any(follows(Bound(value, False), assumed) for value in outside):
+    inside = [Bound(C * 2 + B), Bound(-B - C * (2 * least))]
+    if any(follows(opposite(one), assumed) for one in (Bound(C), *inside)):
         return at_ends
     over_roots = A * C * 4 - B * B
     if follows(Bound(over_roots), assumed) and follows(Bound(A), assumed):
         return []
-    inside = (C, C * 2 + B, -B - C * (2 * least))
-    if all(follows(Bound(value, value is not C), assumed) for value in inside):
-        return [replace(extreme, bound=Bound(over_roots, strict))]
-    if over_roots.ring.depends_on_coordinates(over_roots) or follows(Bound(-over_roots), assumed):
+    at_vertex = _at_vertex(replace(extreme, bound=Bound(over_roots, strict)), inside, assumed)
+    if at_vertex is None:
         return None
-    return [*at_ends, replace(extreme, bound=Bound(over_roots, strict), needed=False)]
+    return [*at_ends, at_vertex] if at_vertex.within or not at_vertex.needed else [at_vertex]
+
+
+def _at_vertex(extreme: Extreme, inside: Sequence[Bound], assumed: Sequence[Bound]) -> Extreme | None:
+    """What must hold where a vertex lies inside; if that depends on coordinates, what is enough, or None."""
+    depends = extreme.bound.value.ring.depends_on_coordinates
+    within = independent(inside, assumed)
+    if not any(depends(one.value) for one in within):
+        return None if within and depends(extreme.bound.value) else replace(extreme, within=within)
+    if depends(extreme.bound.value) or follows(Bound(-extreme.bound.value), assumed):
+        return None
+    return replace(extreme, needed=False)
 
 
 # -- lengths ---------------------------------------------------------------------------------------
@@ -211,9 +222,9 @@ def _in_squares(
     over_roots = A * C * 4 - B * B
     if follows(Bound(-B, False), assumed) and follows(Bound(C), assumed):
         return [at_0, replace(extreme, bound=Bound(over_roots, extreme.bound.is_strict))]
-    if B.ring.depends_on_coordinates(B):
-        return None
-    return [at_0, leading, replace(linear, needed=False)]
+    bound = Bound(over_roots, extreme.bound.is_strict)
+    at_vertex = _at_vertex(replace(extreme, bound=bound), [Bound(-B)], assumed)
+    return None if at_vertex is None else [at_0, leading, at_vertex]
 
 
 MOST_WORK = 20_000
@@ -245,11 +256,16 @@ class Refusal(Enum):
     INDEFINITE = "it is not positive definite"
 
 
+Alternatives = tuple[Bound, ...]
+"""Inequalities of which one must hold."""
+
+
 class Definiteness(Struct, frozen=True):
     """What is found of a matrix.
 
     `minors` are its leading ones; `conditions` what the parameters must satisfy beyond what is
-    assumed, or if not `is_exact` what is enough; `order` (from 0) that of the rows and columns in them.  Of
+    assumed, one inequality of each, or if not `is_exact` what is enough; `order` (from 0) that of the rows
+    and columns in them.  Of
     a matrix that can be none `refusal` says why, `place` the entry (from 0), `extreme` where which minor
     (its `size`) is not positive, or if not `is_whole` what it is over those before it; or `excluding` are
     conditions that exclude each other.  `moves_with_base` is a remark.
@@ -258,7 +274,7 @@ class Definiteness(Struct, frozen=True):
     name: str
     answer: Answer
     minors: tuple[Expr, ...] = ()
-    conditions: tuple[Bound, ...] = ()
+    conditions: tuple[Alternatives, ...] = ()
     refusal: Refusal | None = None
     place: tuple[int, int] = (0, 0)
     coordinate: str = ""
@@ -319,10 +335,11 @@ class _Left(Struct, frozen=True):
     extremes: tuple[Extreme, ...]
 
 
-def _length(left: _Left) -> tuple[bool, int, int]:
-    """How much is left open; what is no more than enough comes last."""
+def _length(left: _Left) -> tuple[int, int, int]:
+    """How much is left open; what is no more than enough, or needed in some cases alone, comes last."""
     sizes = [len(one.bound.value) for one in left.extremes]
-    return not all(one.needed for one in left.extremes), len(sizes), sum(sizes)
+    doubts = sum(2 * (not one.needed) + bool(one.within) for one in left.extremes)
+    return doubts, len(sizes), sum(sizes)
 
 
 _Least = tuple[tuple[Extreme, ...], Extreme | None] | None
@@ -336,7 +353,7 @@ def _open(value: Expr, assumed: Sequence[Bound], known: Sequence[Bound]) -> _Lea
     extremes = smallest(value, (*assumed, *known))
     if extremes is None:
         return None
-    left = tuple(one for one in extremes if not follows(one.bound, assumed))
+    left = tuple(one for one in extremes if not follows(one.bound, (*assumed, *one.within)))
     return left, next((one for one in left if one.fails(assumed)), None)
 
 
@@ -350,7 +367,7 @@ def _in_order(
     left: list[Extreme] = []
     for size, minor in enumerate(minors, 1):
         value = _over(minor, minors[: size - 1])
-        smallest_value = least(value, tuple(one.bound for one in left if one.needed))
+        smallest_value = least(value, tuple(one.bound for one in left if one.needed and not one.within))
         if smallest_value is None:
             return Skipped(f"the smallest value of the {size}×{size} minor of {name} is not found")
         extremes, failing = smallest_value
@@ -365,25 +382,46 @@ def _with_conditions(candidate: Candidate, left: _Left) -> Definiteness | Skippe
     """The conditions on the parameters, where these hold for some and fail for others."""
     matrix, name, assumed = candidate.matrix, candidate.name, candidate.assumed
     needed: list[Bound] = []
+    chosen: list[Alternatives] = []
     is_exact = True
-    for extreme in left.extremes:
-        for bound in _apart(simplified(extreme.bound, [*assumed, *needed])):
-            if follows(bound, needed):
+    for extreme in sorted(left.extremes, key=lambda one: bool(one.within)):
+        for bounds in _alternatives(extreme, [*assumed, *needed]):
+            if len(bounds) > 1:
+                chosen.append(bounds)
                 continue
-            if is_exact and extreme.needed and follows(opposite(bound), [*assumed, *needed]):
+            if is_exact and extreme.needed and follows(opposite(bounds[0]), [*assumed, *needed]):
                 excluding = _excluding(needed, extreme.bound, assumed)
                 refused = replace(left.found, answer=Answer.NO, refusal=Refusal.INDEFINITE)
                 return replace(refused, excluding=excluding)
-            needed.append(bound)
+            needed += bounds
             is_exact &= extreme.needed
-    conditions = independent(needed, assumed)
+    conditions = (*((one,) for one in independent(needed, assumed)), *dict.fromkeys(chosen))
     if not conditions:
         return left.found
-    some = _are_possible(matrix, (*assumed, *conditions))
-    if not some or not any(_are_possible(matrix, (*assumed, opposite(one))) for one in conditions):
+    given = [(one,) for one in assumed]
+    some = _are_possible(matrix, (*given, *conditions))
+    if not some or not any(_are_possible(matrix, (*given, *failing(one))) for one in conditions):
         which = "all the parameters that are assumed" if some else "some parameters"
         return Skipped(f"whether {name} is positive definite for {which} is not found")
     return replace(left.found, answer=Answer.IF, conditions=conditions, is_exact=is_exact)
+
+
+def failing(bounds: Alternatives) -> tuple[Alternatives, ...]:
+    """What holds where none of some inequalities does."""
+    return tuple((opposite(one),) for one in bounds)
+
+
+def _alternatives(extreme: Extreme, known: Sequence[Bound]) -> Iterator[Alternatives]:
+    """What an inequality needs, part by part: where a vertex counts, that part or that it lies outside."""
+    inside = [*known, *extreme.within]
+    outside = [simplified(opposite(one), known) for one in extreme.within]
+    for bound in _apart(simplified(extreme.bound, inside)):
+        if follows(bound, inside):
+            continue
+        if all(follows(bound, [*known, one]) for one in outside):
+            yield (bound,)
+        else:
+            yield (*([] if follows(opposite(bound), inside) else [bound]), *outside)
 
 
 def _apart(bound: Bound) -> Iterator[Bound]:
@@ -420,17 +458,25 @@ def _over(minor: Expr, before: Sequence[Expr]) -> Expr:
     return minor
 
 
-def _are_possible(matrix: Matrix, bounds: Sequence[Bound]) -> bool:
-    """Whether there are parameters that satisfy all inequalities: tried at random, the same every time."""
+def _are_possible(matrix: Matrix, conditions: Sequence[Alternatives]) -> bool:
+    """Whether there are parameters that satisfy all conditions: tried at random, the same every time."""
     ring, random = matrix.ring, Random(TRIES)  # noqa: S311 - the same values every time are wanted
     for _ in range(TRIES):
         values = {
-            name: random.choice((0.0, random.uniform(-3, 3), random.uniform(0, 3)))
+            name: random.choice((0.0, random.uniform(-3, 3), random.uniform(0, 3), random.uniform(-30, 30)))
             for name in ring.parameters
         }
-        if all(evaluate(b.value, values) > (1e-9 if b.is_strict else -1e-9) for b in bounds):
+        if hold(conditions, values, 1e-9, -1e-9):
             return True
     return False
+
+
+def hold(conditions: Sequence[Alternatives], values: Mapping[str, float], above: float, least: float) -> bool:
+    """Whether numbers satisfy all conditions: what is strict from `above` on, what is not from `least` on."""
+    return all(
+        any(evaluate(b.value, values) >= (above if b.is_strict else least) for b in bounds)
+        for bounds in conditions
+    )
 
 
 # -- what no inertia matrix has --------------------------------------------------------------------

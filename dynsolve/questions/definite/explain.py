@@ -21,7 +21,7 @@ from dynsolve.explain.writing import listed
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Function, Letter, Node, Number, Relation, Symbol, equation
 from dynsolve.quantities import letters
-from dynsolve.questions.definite.derive import Answer, Definiteness, Refusal
+from dynsolve.questions.definite.derive import Alternatives, Answer, Definiteness, Refusal
 from dynsolve.robot.questions import Candidate
 
 _CONCLUSIONS = {
@@ -101,8 +101,20 @@ def _outcome(forms: Forms, name: Node, found: Definiteness) -> Prose:
     """The verdict on a matrix, with its conditions."""
     if found.answer is not Answer.IF:
         return (name, f": {_CONCLUSIONS[found.answer]}")
-    these = _all_of(forms, found.conditions)
-    return say("{name}: it can be an inertia matrix if {these}.", name=name, these=these)
+    return say("{name}: it can be an inertia matrix {these}.", name=name, these=_if(forms, found))
+
+
+def _if(forms: Forms, found: Definiteness) -> Prose:
+    """Exactly if a > 0 and either b > 0 or c ≥ 0; or that no more is known than that it is enough."""
+    these = listed([_either(forms, bounds) for bounds in found.conditions])
+    if found.is_exact:
+        return say("exactly if {these}", these=these)
+    return say("if {these}; this is enough, but may be more than is needed", these=these)
+
+
+def _either(forms: Forms, bounds: Alternatives) -> Prose:
+    parts = listed([inequality(forms, bound) for bound in bounds], "or")
+    return parts if len(bounds) == 1 else ("either ", *parts)
 
 
 def reason(forms: Forms, found: Definiteness) -> Prose:
@@ -126,11 +138,7 @@ def reason(forms: Forms, found: Definiteness) -> Prose:
     return say(
         "{taken}Every leading minor is positive in every configuration{conditions}.",
         taken=taken,
-        conditions=say(
-            " exactly if {these}" if found.is_exact else " if {these}", these=_all_of(forms, found.conditions)
-        )
-        if found.answer is Answer.IF
-        else "",
+        conditions=(" ", *_if(forms, found)) if found.answer is Answer.IF else "",
     )
 
 

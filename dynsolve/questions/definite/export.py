@@ -35,7 +35,8 @@ def _result(export: Export, forms: Forms, found: Definiteness | Skipped) -> dict
     return {
         "verdict": found.answer.value,
         "conditions": [
-            plain_inequality(inequality(forms, bound), export.python) for bound in found.conditions
+            " or ".join(plain_inequality(inequality(forms, bound), export.python) for bound in bounds)
+            for bounds in found.conditions
         ],
         "why": "".join(parts),
     }

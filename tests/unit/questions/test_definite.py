@@ -75,7 +75,7 @@ CONDITIONS = {
     "a square of a difference": (of_three("a^2 - 2*a*b + b^2"), ["a - b != 0"]),
     "a parabola in a square": (
         of_three("a - b*cos(q2)^2 + cos(q2)^4", "0", "[a > 0, b > 0]"),
-        ["1 + a - b > 0", "4*a - b**2 > 0"],
+        ["1 + a - b > 0", "4*a - b**2 > 0 or b - 2 >= 0"],
     ),
     "a square of a length off the diagonal": (
         file("[[a + c*d^2, b*d^2, 0], [b*d^2, 1, 0], [0, 0, 1]]"),
@@ -85,9 +85,25 @@ CONDITIONS = {
         file("[[1 + d^2, e*d, 0], [e*d, 1 + d^2, 0], [0, 0, 1]]", "[e^2 > 2]"),
         ["4 - e**2 > 0"],
     ),
-    "what is enough of a parabola in the square of a length": (
+    "a parabola in the square of a length that may grow everywhere": (
         file("[[1 + d^2, e*d, 0], [e*d, 1 + d^2, 0], [0, 0, 1]]"),
-        ["2 - e**2 >= 0"],
+        ["4 - e**2 > 0"],
+    ),
+    "a vertex that may lie outside": (
+        of_three("a + b*cos(q2) + c*cos(q2)^2", "0", "[b > 0, c > 0]"),
+        ["a - b + c > 0", "4*a*c - b**2 > 0 or b - 2*c >= 0"],
+    ),
+    "a vertex on either side": (
+        of_three("a + b*cos(q2) + c*cos(q2)^2"),
+        ["a - b + c > 0", "a + b + c > 0", "4*a*c - b**2 > 0 or b - 2*c >= 0 or -b - 2*c >= 0"],
+    ),
+    "a vertex whose value decides outside, too": (
+        file("[[a + b*cos(q2), b*sin(q2), 0], [b*sin(q2), a, 0], [0, 0, 1]]"),
+        ["a + b > 0", "3*a**2 - 4*b**2 > 0"],
+    ),
+    "a vertex of a determinant": (
+        of_three("a + 2*b*cos(q2) + c*cos(q2)^2", "b*cos(q2)", "[b > 0, c > 0]"),
+        ["a - 2*b + c - b**2 > 0", "a*c - b**2*(1 + a) > 0 or b**2 + b - c >= 0"],
     ),
     "a product on the diagonal": (
         file("[[a, b*sin(q1), 0], [b*sin(q1), c, 0], [0, 0, 1]]"),
@@ -107,8 +123,8 @@ def test_conditions(name: str) -> None:
 def _sorted(inequality: str) -> str:
     import sympy
 
-    left, sign, _ = inequality.split(" ")[:-2], inequality.split(" ")[-2], ""
-    return f"{sympy.expand(sympy.sympify(' '.join(left)))} {sign}"
+    parts = (one.rsplit(" ", 2) for one in inequality.split(" or "))
+    return " or ".join(sorted(f"{sympy.expand(sympy.sympify(left))} {sign}" for left, sign, _ in parts))
 
 
 YES = {
@@ -233,7 +249,12 @@ def test_a_minor_that_touches_0_off_the_right_angles_is_not_positive(matrix: str
 @pytest.mark.parametrize(
     ("text", "word"),
     [
-        (of_three("a + b*d + c*d^2"), "if c > 0"),  # b = c = 0 will do as well
+        # b = c = 0 will do as well
+        (
+            of_three("a + b*d + c*d^2"),
+            "if c > 0 and 4a c - b² > 0; this is enough, but may be more than is needed",
+        ),
+        (of_three("2 + a*cos(q2) + cos(q2)^2", "0", "[a > 0]"), "exactly if 3 - a > 0"),
         (of_three("a + b*d + d^2"), "exactly if 4a - b² > 0"),
         (of_three("a", "b*cos(q2)"), "exactly if a - b² > 0"),
         (file("[[J + m*(d - h)^2, m*h, 0], [m*h, m, 0], [0, 0, 1]]"), "exactly if m > 0 and J - m h² > 0"),
@@ -249,7 +270,7 @@ def test_conditions_that_are_not_needed_are_found() -> None:
     robot, right = read_problem(text).robot, found(text)
     (candidate,) = robot.questions.candidates
     verify_definite(robot, candidate, right, 5)
-    more = replace(right, conditions=(*right.conditions, Bound(robot.ring.symbol("b"))), is_exact=True)
+    more = replace(right, conditions=(*right.conditions, (Bound(robot.ring.symbol("b")),)), is_exact=True)
     with pytest.raises(VerificationError, match="comes out otherwise"):
         verify_definite(robot, candidate, more, 5)
 

@@ -42,7 +42,7 @@ def test_a_matrix_has_its_own_assumptions_and_the_conditions_of_its_verdict() ->
         "assume: {A: [a > 0, b > 0], B: [c > 0]}\n"
     )
     assert "Assumed of A: a > 0 and b > 0. Assumed of B: c > 0." in " ".join(told.split())
-    assert "B: it can be an inertia matrix if " in told
+    assert "B: it can be an inertia matrix exactly if " in told
 
 
 STATED = f"""{ARM}linearize: {{q1: 0, q2: 90deg}}
