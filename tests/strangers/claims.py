@@ -20,6 +20,7 @@ from dynsolve import document
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Symbol, names_in, walk
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.questions.equilibria.solving import wanted_rows
 from dynsolve.robot.model import Convention
 from tests.strangers.mechanism import NEAR, Mechanism, names_of, near, plain, rank
 from tests.strangers.oracle import Point, Unknown
@@ -963,8 +964,8 @@ def _falls_where(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "Where {&}, {}, too; but {&} move[s] no body there, {&}, and the coordinates do not tell how the bodies "
-    "move: it need not be an equilibrium."
+    "Where {&}, <{}|there may be a {}>, too; but {&} move[s] no body there, {&}, and the coordinates do not "
+    "tell how the bodies move: it need not be an equilibrium."
 )
 def _no_coordinates(m: Mechanism, s: Sentence) -> bool:
     names = names_of(tuple(node for node in s.formulas if isinstance(node, Symbol)))
@@ -972,7 +973,12 @@ def _no_coordinates(m: Mechanism, s: Sentence) -> bool:
     where = m.where(tree.Row(conditions))
     inertia = np.diag(m.result("D", where))
     still = [inertia[m.coordinates.index(name)] for name in names]
-    return bool(names) and near(m.at_rest(where), 0) and near(np.array(still), 0)
+    rows = wanted_rows(m.solution.robot)
+    left = m.at_rest(where)[rows]
+    if m.solution.robot.questions.constraints:
+        A = m.result("Ac", where)[:, rows]
+        left = np.append(m.result("hc", where), np.linalg.det([*A, left]) if len(A) < len(rows) else 0)
+    return bool(names) and near(left, 0) and near(np.array(still), 0)
 
 
 @says("<At {}|In every configuration|In equilibrium[ at {}]|In case #[ at {}]>, where {}: <not stable>.")

@@ -20,7 +20,7 @@ def rules(robot: Robot) -> Iterator[Rule]:
     if robot.questions.model.steady:
         yield Rule("equilibria", ("D", "C", "g"), partial(linearization.steady_equilibria, robot))
     elif robot.questions.constraints:
-        yield Rule("equilibria", ("g", "Ac", "hc"), partial(constrained_equilibria, robot))
+        yield Rule("equilibria", ("g", "D", "Ac", "hc"), partial(constrained_equilibria, robot))
     else:
         yield Rule("equilibria", ("g", "D"), partial(equilibria, robot))
     if robot.questions.model.linearize:

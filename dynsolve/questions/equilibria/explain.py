@@ -162,7 +162,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         listed=len(result) > 1,
         notes=(*_of_free(shown, found, where), *notes),
         outcome=paragraph(notes),
-        uses=None if steady or constrained or found.singular else ("g",),
+        uses=None if steady or found.singular else ("g", "Ac", "hc") if constrained else ("g",),
         detail=Detail.BRIEF,
     )
     if any(found.points) or (constrained and cases):
@@ -285,8 +285,7 @@ def _in_numbers(shown: EquilibriaForms, value: Expr) -> Iterator[Prose]:
 
 def _besides(context: Context, shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
     """What is said of configurations and parameters that the cases leave out."""
-    steady = bool(shown.robot.questions.model.steady)
-    yield from _singular(shown, found, FORCES if steady else letters.G)
+    yield from _singular(shown, found)
     for one in found.special:
         yield from _special(shown, one)
     if found.may_be_others:
@@ -351,8 +350,14 @@ def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[
         yield say("Where the rows of $𝐀_c$ are dependent there need be no $𝛌$, and no equilibrium.")
 
 
-def _singular(shown: EquilibriaForms, found: Equilibria, forces: Node) -> Iterator[Prose]:
+def _singular(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
     """Where coordinates move no body, so that no force has to be 0 for the bodies to stay."""
+    robot, rows = shown.robot, wanted_rows(shown.robot)
+    balance: Prose = (as_row(listed([equation(_force(robot, k), Number(0)) for k in rows])),)
+    if robot.questions.constraints:
+        balance = say("there may be a $𝛌$")
+    elif len(rows) == robot.n:
+        balance = (equation(letters.G, _ZERO),)
     for case, idle in found.singular:
         zero = listed(shown.relations(case, tuple(map(shown.condition, case))))
         names = listed([Symbol(shown.robot.coordinates[k].name) for k in idle])
@@ -362,7 +367,7 @@ def _singular(shown: EquilibriaForms, found: Equilibria, forces: Node) -> Iterat
             "Where {zero}, {balance}, too; but {names} {move} no body there, {zeros}, and the coordinates do "
             "not tell how the bodies move: it need not be an equilibrium.{more}",
             zero=zero,
-            balance=equation(forces, _ZERO),
+            balance=balance,
             names=names,
             move=agreeing("moves|move", len(idle)),
             zeros=zeros,
@@ -453,9 +458,12 @@ def _balance_of(robot: Robot, forces: Node, values: Node) -> Node:
     rows = wanted_rows(robot)
     if len(rows) == robot.n or not isinstance(values, MatrixTree):
         return equation(forces, *([values] if is_small(values) else []), _ZERO)
-    steady = bool(robot.questions.model.steady)
-    letter = [letters.force(q) if steady else letters.entry("g", q.index) for q in robot.coordinates]
-    return as_row(listed([equation(letter[k], values.rows[k][0], Number(0)) for k in rows]))
+    return as_row(listed([equation(_force(robot, k), values.rows[k][0], Number(0)) for k in rows]))
+
+
+def _force(robot: Robot, k: int) -> Node:
+    """g₁, or τ₁ in a motion that goes on, of a coordinate from 0."""
+    return letters.force(robot.coordinates[k]) if robot.questions.model.steady else letters.entry("g", k + 1)
 
 
 def _special(shown: EquilibriaForms, case: SpecialCase) -> Iterator[Prose]:

@@ -179,16 +179,18 @@ def multipliers(robot: Robot, forces: Matrix, A: Matrix, h: Matrix) -> Multiplie
     return Multipliers.of(robot, wanted_rows(robot), forces, A, h)
 
 
-def constrained_equilibria(robot: Robot, forces: Matrix, A: Matrix, h: Matrix) -> Equilibria | Skipped:
+def constrained_equilibria(
+    robot: Robot, forces: Matrix, inertia: Matrix, A: Matrix, h: Matrix
+) -> Equilibria | Skipped:
     """The configurations in which multipliers hold the forces, and h is 0."""
     held = multipliers(robot, forces, A, h)
-    return equilibria(robot, forces, held=held) if held.allowed.is_whole else Skipped(NOT_SHOWN)
+    return equilibria(robot, forces, inertia, held=held) if held.allowed.is_whole else Skipped(NOT_SHOWN)
 
 
 def equilibria(
     robot: Robot,
     forces: Matrix,
-    inertia: Matrix | None = None,
+    inertia: Matrix,
     *,
     held: Multipliers | None = None,
     may_be_held: bool = False,
@@ -227,7 +229,7 @@ class _Search:
         self.only: list[tuple[Expr, Expr, tuple[Bound, ...]]] = []
         self.left = tuple(combined(robot.ring, wanted, lambda factor: self.special.add(self.there(factor))))
 
-    def found(self, forces: Matrix, inertia: Matrix | None, may_be_held: bool) -> Equilibria:
+    def found(self, forces: Matrix, inertia: Matrix, may_be_held: bool) -> Equilibria:
         """The equilibria; raises TooLong."""
         rest = None if self.held else self._only_rest(forces)
         alternatives, settled = (rest, None) if rest else self._alternatives()
@@ -242,7 +244,7 @@ class _Search:
             for one in alternatives
             if (bounds := conditions([condition.expr for condition in one], self.signs)) is not None
         }
-        singular = self._singular(possible, inertia)
+        singular = self._singular(possible, forces, inertia)
         exist = {one: bounds for one, bounds in possible.items() if one not in singular}
         for condition in (condition for one in exist for condition in one):
             if condition.fixes_length and condition.linear:  # where the factor of the length is 0, it is free
@@ -255,9 +257,10 @@ class _Search:
         short = [factor for factor in special.factors if len(factor) <= MOST_SHOWN_TERMS][:MOST_SPECIAL]
         never = (_never(one, self.signs) for one in alternatives if one not in possible)
         seen = [_is_seen(one, self.signs) for one in exist]
-        if len(exist) == 1 and settled is not None and self._is_always(settled, *exist.values()):
+        is_only = len(exist) == 1 and not singular
+        if is_only and settled is not None and self._is_always(settled, *exist.values()):
             seen = [True]
-        has_least = len(exist) == 1 and not (all(seen) or singular) and self._has_least(forces)
+        has_least = is_only and not all(seen) and self._has_least(forces)
         if has_least:
             exist, seen = dict.fromkeys(exist, ()), [True]
         inside = {one: without_ends(bounds, short, self.signs) for one, bounds in exist.items()}
@@ -370,13 +373,12 @@ class _Search:
         return len(own) == len(theirs) == len(rows([*own, *theirs])) and divided.is_empty
 
     def _singular(
-        self, cases: Iterable[Alternative], inertia: Matrix | None
+        self, cases: Iterable[Alternative], forces: Matrix, inertia: Matrix
     ) -> dict[Alternative, tuple[int, ...]]:
         """Cases in which coordinates describe nothing, and these."""
-        if inertia is None:
-            return {}
-        mass, free = inertia.map(self.there), wanted_rows(self.robot)
-        return {one: idle for one in cases if (idle := _idle(mass, one, free))}
+        mass, free, kept = inertia.map(self.there), wanted_rows(self.robot), _kept_turning(self.robot)
+        pulls = [self.there(force) for k, force in enumerate(forces.entries) if k not in kept]
+        return {one: idle for one in cases if (idle := _idle(mass, pulls, one, free))}
 
     def _points(
         self, exist: Mapping[Alternative, tuple[Bound, ...]], forces: Matrix, may_be_held: bool
@@ -545,15 +547,17 @@ def _ring_of_sums(ring: Ring, case: Alternative) -> Ring:
     return ring
 
 
-def _idle(inertia: Matrix, case: Alternative, free: Sequence[int]) -> tuple[int, ...]:
-    """Those of the `free` coordinates that a case fixes though they move no body there, as an angle at r = 0.
+def _idle(inertia: Matrix, pulls: Sequence[Expr], case: Alternative, free: Sequence[int]) -> tuple[int, ...]:
+    """Those of the `free` coordinates that move no body in a case, as an angle at r = 0.
 
-    Where it does not, forces are 0 in whatever direction the bodies move: a pendulum that hangs.
+    But for those that it leaves free, where all that pulls is 0: this is so in whatever direction the bodies
+    move.  Across a rod of length 0 no motor and no constraint along the rod holds.
     """
     known = [condition.expr for condition in case]
     heavy = (k for k in free if not inertia[k, k].is_zero)
     still = (k for k in heavy if lies_in(known, [inertia[k, k]]))
-    return tuple(k for k in still if any(not inertia.ring.diff(one, k).is_zero for one in known))
+    pulled = not lies_in(known, pulls)
+    return tuple(k for k in still if pulled or any(not inertia.ring.diff(one, k).is_zero for one in known))
 
 
 def _is_told_of_more(point: Point, own: Alternative, cases: Iterable[Alternative]) -> bool:

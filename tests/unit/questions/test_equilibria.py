@@ -1874,3 +1874,42 @@ springs: [{stiffness: k, of: q1}]
 find: [equilibria]
 """)
     assert "k q₁ = 0 and" in text and "For which parameters" not in text
+
+
+HELD_MASS = """
+gravity: [0, -g, 0]
+model: {{coordinates: {{r: prismatic, a: revolute}}, bodies: [{{mass: m, at: [r*sin(a), -r*cos(a), 0]}}]}}
+{more}
+find: [equilibria]
+"""
+
+
+@pytest.mark.parametrize(
+    ("more", "equilibria", "told"),
+    [
+        ("constraints: [r*sin(a)]", [], "Where r = 0, there may be a λ, too; but a moves no body there"),
+        (
+            "constraints: [r*cos(a) + r*sin(a)]\nsprings: [{stiffness: k, of: r}]",
+            [["sin(a) + cos(a) = 0", "2*k*r*cos(a) - m*g = 0"]],
+            "Where r = 0, there may be a λ, too; but a moves no body there",
+        ),
+        ("passive: [a]\ninputs: given", [["sin(a) = 0"]], "Where r = 0, g₂ = 0, too; but a moves no body"),
+    ],
+)
+def test_neither_a_constraint_nor_a_motor_along_a_rod_of_length_0_holds_across_it(
+    more: str, equilibria: list[list[str]], told: str
+) -> None:
+    """The mass falls along x = 0; on y = x it is where k u = -m g/√2; on the rod below the pivot or above.
+
+    In the case r = 0, which coordinates cannot tell, forces are not 0, whatever angle that leaves free.
+    """
+    text = HELD_MASS.format(more=more)
+    assert dynsolve.solve(text).to_json()["results"]["equilibria"] == equilibria
+    outcome = "".join(p if isinstance(p, str) else to_unicode(p) for p in told_of(text).outcome)
+    assert told in outcome
+
+
+def test_what_nothing_pulls_rests_at_r_0_with_a_constraint_too() -> None:
+    free = HELD_MASS.format(more="constraints: [r*cos(a)]\nsprings: [{stiffness: k, of: r}]")
+    text = free.replace("gravity: [0, -g, 0]", "gravity: none")
+    assert dynsolve.solve(text).to_json()["results"]["equilibria"] == [["r = 0"]]
