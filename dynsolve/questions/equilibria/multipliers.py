@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence, Set
 from contextlib import suppress
 from fractions import Fraction
-from itertools import chain, product
+from itertools import chain, combinations, product
 from math import prod
 
 from msgspec import Struct
@@ -24,7 +24,6 @@ from dynsolve.algebra.linear_systems import (
     fraction_of,
     part,
     quotient,
-    rank_parts,
 )
 from dynsolve.algebra.matrix import Matrix, determinant, minors
 from dynsolve.algebra.ring import Expr, Ring
@@ -147,11 +146,12 @@ class Multipliers(Struct, frozen=True):
         """Whether an energy decides on stability: all n coordinates are free, all constraints functions."""
         return len(self.A.rows) == len(self.h) and self.A.shape[1] == n
 
-    def along(self, second: Matrix, at: Here) -> Along | None:
+    def along(self, second: Matrix, at: Here, signs: ParameterSigns) -> Along | None:
         """The second derivatives of P - λᵀ h along what A_c leaves free, `at` a configuration.
 
         None where the rows of A_c are dependent, or nothing is free.  `second` are those of P; `at` may
-        bring a factor, the same in all that it is given at once.
+        bring a factor, the same in all that it is given at once.  The λ follow from columns of A_c of which
+        the determinant is never 0, by the `signs`, if there are such.
         """
         ring, (count, n) = self.A.ring, self.A.shape
         of_h = [[ring.diff(ring.diff(h, i), j) for j in range(n)] for h in self.h for i in range(n)]
@@ -159,12 +159,13 @@ class Multipliers(Struct, frozen=True):
         A, g, of_P = (
             Matrix(ring, lines) for lines in (rows[:count], rows[count : count + 1], rows[count + 1 :])
         )
-        found = rank_parts(A)
-        if min(self.rank, found.rank) < count or count == n:
+        every = {columns: part(A, tuple(range(count)), columns) for columns in combinations(range(n), count)}
+        sizes = {columns: size for columns, one in every.items() if not (size := determinant(one)).is_zero}
+        if self.rank < count or not sizes or count == n:
             return None
-        chosen = part(A, found.rows, found.columns)
-        size = determinant(chosen)
-        multipliers = part(g, (0,), found.columns) @ adjugate(chosen)  # λᵀ times the determinant
+        columns = min(sizes, key=lambda one: len([*signs.open_factors(sizes[one])]))
+        size = sizes[columns]
+        multipliers = part(g, (0,), columns) @ adjugate(every[columns])  # λᵀ times the determinant
         total = of_P.block(0, n, 0, n).scale(size)
         for k in range(count):
             bent = of_P.block(n * (k + 1), n * (k + 2), 0, n)

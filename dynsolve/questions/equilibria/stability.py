@@ -275,7 +275,7 @@ class Curvature(Struct, frozen=True):
                 return None
             here = partial(_there, values=values, zeros=left)
             if self.held is not None:
-                along = self.held.along(self.second, here)
+                along = self.held.along(self.second, here, signs)
                 if along is None:
                     return self._where_curves_meet(values, signs, here)
                 return self._held_point(values, along, signs, here)
@@ -321,7 +321,7 @@ class Curvature(Struct, frozen=True):
         """
         undecided, found = Point(values, Stability.UNDECIDED), set[Stability]()
         for branch in self.held.branches(here) if self.held is not None else ():
-            along = None if branch is None else branch.along(self.second, here)
+            along = None if branch is None else branch.along(self.second, here, signs)
             if branch is None or along is None:
                 return undecided
             point = replace(self, held=branch)._held_point(values, along, signs, here)

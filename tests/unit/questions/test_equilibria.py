@@ -1913,3 +1913,29 @@ def test_what_nothing_pulls_rests_at_r_0_with_a_constraint_too() -> None:
     free = HELD_MASS.format(more="constraints: [r*cos(a)]\nsprings: [{stiffness: k, of: r}]")
     text = free.replace("gravity: [0, -g, 0]", "gravity: none")
     assert dynsolve.solve(text).to_json()["results"]["equilibria"] == [["r = 0"]]
+
+
+FOLDED = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: a}, {theta: q2*, a: b}]
+masses: [%s]
+constraints: [tip.x]
+find: [equilibria]
+"""
+
+
+@pytest.mark.parametrize(
+    ("masses", "told"),
+    [
+        ("{mass: m, link: 1}", {"stability": "stable"}),
+        (
+            "{mass: m, link: 1}, {mass: m, link: 2}",
+            {"stability": "undecided", "stable_if": ["2*b > a"], "unstable_if": ["a > 2*b"]},
+        ),
+    ],
+)
+def test_an_exception_that_cannot_be_at_a_point_is_not_told_there(masses: str, told: dict[str, Any]) -> None:
+    """At q1 = -90°, q2 = 180° A_c = (a - b, -b) has rank 1 where a = b, too; Zᵀ(...)Z is m g a³ > 0 there."""
+    points = dynsolve.solve(FOLDED % masses).to_json()["results"]["equilibria_stability"][0]
+    at = {"q1": "-pi/2", "q2": "pi"}
+    assert [{**at, **told}] == [one for one in points if at.items() <= one.items()]
