@@ -68,7 +68,7 @@ def given(forms: Forms) -> Iterator[Prose]:
     if model.steady:
         yield ("The motion keeps ", in_units(robot, [(name, 1, value) for name, value in model.steady]), ".")
     if model.inputs_given:
-        yield ("In equilibria motors hold the coordinates that they drive.",)
+        yield ("In equilibria motors hold the coordinates that they drive, by forces that stay as they are.",)
 
 
 LETTERS = """
@@ -108,6 +108,7 @@ MOST_ZEROS = 8
 """More zeros of an equation in numbers are not told."""
 
 _COULOMB = "Coulomb friction is left out: wherever it holds, there is rest, too."
+_CONSTANT = "All this is with motors whose forces stay as they are."
 _NOT_HELD = "All this is without Coulomb friction{held}."
 _CAN_HOLD = ", which can hold what is not stable"
 _CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
@@ -135,7 +136,10 @@ def _equilibria(context: Context) -> Iterator[Step]:
     notes = [*_of_cases(shown, found, where), *_besides(context, shown, found)]
     forces: Node = FORCES if steady else letters.G
     values = context.show(forces_of_motion(context)) if steady else context.form("g")
-    balance = "Motors hold the others; what has none must be in balance: {passive}. "
+    balance = (
+        "Motors hold the others by forces that stay as they are; what has none must be in balance: "
+        "{passive}. "
+    )
     assumed = [*map(shown.inequality, model.assumed)]
     passive = listed([Symbol(robot.coordinates[k].name) for k in robot.actions.passive])
     yield Step(
@@ -527,6 +531,8 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
         curvature = context.show(linearization.curvature(robot, forces))
         working = (*working, *([equation(second, curvature)] if is_small(curvature) else []))
     sentences = [*(_verdict(context, shown, found, *one) for one in told), *([more] if more else [])]
+    if robot.questions.model.inputs_given and any(point.is_told for point, _ in told):
+        sentences.append((_CONSTANT,))
     slid = _held_by_friction(robot)
     if slid and any(point.stability is not Stability.STABLE for point, _ in told):
         holds = not robot.questions.constraints and _can_hold(

@@ -1939,3 +1939,10 @@ def test_an_exception_that_cannot_be_at_a_point_is_not_told_there(masses: str, t
     points = dynsolve.solve(FOLDED % masses).to_json()["results"]["equilibria_stability"][0]
     at = {"q1": "-pi/2", "q2": "pi"}
     assert [{**at, **told}] == [one for one in points if at.items() <= one.items()]
+
+
+def test_that_stability_is_that_with_constant_forces_of_the_motors_is_said() -> None:
+    """A motor that holds the length makes the hanging mass a pendulum; a force that stays lets it go."""
+    hanging = HELD_MASS.format(more="passive: [a]\ninputs: given")
+    assert "All this is with motors whose forces stay as they are." in read(hanging)
+    assert "whose forces stay" not in read(hanging.replace("inputs: given", ""))
