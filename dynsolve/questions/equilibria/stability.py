@@ -210,12 +210,14 @@ class Curvature(Struct, frozen=True):
         known = {point.values: point for point in self._possible(alternative, inside)}
         for point in self._possible(alternative, exists):
             told = known.get(point.values, point)
-            if told == point or not told.is_told:
-                yield point
+            apart = (*(inside if told != point else ()), *told.inside)
+            if not (apart and told.is_told):
+                yield replace(point, inside=())
             elif told.stability is Stability.STABLE:  # where a bound is an equality nothing is known
-                yield replace(point, conditions=tuple(inside), nonzero=(), falls=False, is_open=False)
+                undecided = replace(point, stability=Stability.UNDECIDED, falls=False, is_open=False)
+                yield replace(undecided, conditions=apart, inside=(), nonzero=())
             else:
-                yield replace(told, inside=tuple(inside))
+                yield replace(told, inside=apart)
 
     def _possible(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
         """Points without what always holds in the case; stable where nothing else is asked."""
@@ -248,6 +250,7 @@ class Curvature(Struct, frozen=True):
         return not factor.ring.depends_on_coordinates(factor) or _may_be_zero([*values, factor], self.signs)
 
     def _points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
+        """The points, each with its bounds beside those of the case, where none is an equality."""
         if 2 ** len(alternative) > MOST_POINTS:
             return
         turns = [found for one in alternative if (found := quarter_turns(one))]
@@ -265,26 +268,33 @@ class Curvature(Struct, frozen=True):
             _turned(ring, pose) for pose in rests([one.expr for one in others if not one.fixes_length])
         ]
 
-        def whole(values: Values, second: Matrix, here: Here) -> Point:
+        def whole(values: Values, second: Matrix, here: Here, signs: ParameterSigns) -> Point:
             drifting = self._drifting(values, second, signs, len(alternative))
             return drifting or self._point(values, second, signs, free, here)
 
         def point_at(values: Values) -> Point | None:
             left = _put(Matrix.column(ring, [other.expr for other in others]), values).entries
-            if conditions(left, signs) is None:
+            needed = conditions(left, signs)
+            if needed is None:
                 return None
+            own = tuple(
+                Bound(one.value) for one in needed if one.value not in [other.value for other in exists]
+            )
+            return replace(judged(values, left, signs.beside(*own)), inside=own)
+
+        def judged(values: Values, left: Sequence[Expr], signs: ParameterSigns) -> Point:
             here = partial(_there, values=values, zeros=left)
             if self.held is not None:
                 along = self.held.along(self.second, here, signs)
                 if along is None:
                     return self._where_curves_meet(values, signs, here)
                 return self._held_point(values, along, signs, here)
-            point = whole(values, here(self.second), here)
+            point = whole(values, here(self.second), here, signs)
             if point.stability is not Stability.UNDECIDED or not (higher := tuple(self._apart(here))):
                 return point
             at, instead = here(self.second), {one.coordinate: one.curvature for one in higher}
             rows = [[*row[:k], instead.get(k, row[k]), *row[k + 1 :]] for k, row in enumerate(at.rows)]
-            return replace(whole(values, Matrix.of(ring, rows), here), higher=higher)
+            return replace(whole(values, Matrix.of(ring, rows), here, signs), higher=higher)
 
         for values in product(*turns):
             point = point_at(values)

@@ -1780,9 +1780,9 @@ def test_what_constraints_hold_is_told_at_sums_of_angles() -> None:
     cases = dynsolve.solve(ON_A_LINE).to_json()["results"]["equilibria_stability"]
     (told,) = (points for points in cases if "q1 + q2" in points[0])
     known = {(point["q1 + q2"], point["q3"]): point.get("stable_if") for point in told}
-    dependent = ["l1 != l2 + l3"]  # where the links reach back to the base, the row of A_c is 0
+    reached = ["l1 > l2 + l3"]  # at both sides equal the links reach back to the base, the row of A_c is 0
     assert known == {
-        ("pi/2", "0"): dependent,
+        ("pi/2", "0"): reached,
         ("pi/2", "pi"): None,
         ("-pi/2", "0"): None,
         ("-pi/2", "pi"): None,
@@ -1946,3 +1946,16 @@ def test_that_stability_is_that_with_constant_forces_of_the_motors_is_said() -> 
     hanging = HELD_MASS.format(more="passive: [a]\ninputs: given")
     assert "All this is with motors whose forces stay as they are." in read(hanging)
     assert "whose forces stay" not in read(hanging.replace("inputs: given", ""))
+
+
+def test_no_stability_is_told_of_a_point_for_parameters_with_which_it_is_not_there() -> None:
+    """sin q2 = -g/(W² (a + b)) at q3 = 0 is a maximum of the sine's size, and -g/(W² (a - b)) at 180°."""
+    swing = """
+dh: [{theta: phi*, d: h, alpha: 90deg}, {theta: q2*, a: a}, {theta: q3*, a: b}]
+masses: [{mass: m, link: 3}]
+steady: {phi: W}
+find: [equilibria]
+"""
+    told = read(swing)
+    assert "In case 1 at q₃ = 0: stable where W² (a + b) > g. In case 1" in told
+    assert "In case 1 at q₃ = 180°, where W⁴ (a - b)² > g²: not stable." in told
