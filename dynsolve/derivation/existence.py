@@ -23,7 +23,7 @@ from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import with_symbols
 from dynsolve.algebra.sampling import Transfer
-from dynsolve.derivation.elimination import ParameterSigns, rank
+from dynsolve.derivation.elimination import ParameterSigns, rank, turn_of
 
 DEGREES = {(0, 1): 0, (1, 0): 90, (0, -1): 180, (-1, 0): 270}
 """The quarter turns in degrees, by their sine and cosine."""
@@ -122,8 +122,14 @@ def _is_turned_to_0(value: Expr, own: Iterable[str]) -> bool:
     return not {*own}.isdisjoint(name for times, pair in pairs if times for name in names_of(pair.angle))
 
 
-def _is_never_zero(value: Expr, zeros: Iterable[Expr], signs: ParameterSigns) -> bool:
-    """Whether a value is not 0 where others are that fix its angles at quarter turns."""
+def _is_never_zero(value: Expr, zeros: Sequence[Expr], signs: ParameterSigns) -> bool:
+    """Whether a value is not 0 where others are that fix its angles, or their tangents."""
+    tangents = [turn for turn in map(turn_of, zeros) if turn is not None and turn.rest.is_zero]
+    known = [one.pair for one in tangents if signs.is_positive((one.sine * one.cosine) ** 2)]
+    if {*signs.open_factors(value)}.issubset(
+        value.ring.generator(place) for pair in known for place in (pair.sine, pair.cosine)
+    ):
+        return True
     names = {*coordinates_in(value)}
     fixing = [
         zero

@@ -1948,6 +1948,20 @@ def test_that_stability_is_that_with_constant_forces_of_the_motors_is_said() -> 
     assert "whose forces stay" not in read(hanging.replace("inputs: given", ""))
 
 
+def exist_of(problem: str) -> list[list[str]]:
+    """The inequalities of each case, of which the text does not say that they may not be enough."""
+    told = read(problem)
+    assert "only where" not in told and "solutions is not told" not in told
+    found: list[list[str]] = dynsolve.solve(problem).to_json()["results"].get("equilibria_exist", [])
+    return found
+
+
+def test_where_a_tangent_is_known_its_sine_and_cosine_are_not_0() -> None:
+    """r = m g/(2 k cos θ) with tan θ = -1 is there for all parameters."""
+    line = "constraints: [r*cos(a) + r*sin(a)]\nsprings: [{stiffness: k, of: r}]"
+    assert exist_of(HELD_MASS.format(more=line)) == []
+
+
 def test_no_stability_is_told_of_a_point_for_parameters_with_which_it_is_not_there() -> None:
     """sin q2 = -g/(W² (a + b)) at q3 = 0 is a maximum of the sine's size, and -g/(W² (a - b)) at 180°."""
     swing = """
