@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
-from itertools import permutations, product
+from itertools import combinations, permutations, product
 from operator import mul
 from typing import Any
 
@@ -89,15 +89,23 @@ def is_seen(values: Sequence[Expr], signs: ParameterSigns) -> bool:
     and is 0 somewhere whatever the others are.  They are 0 where no angle stands in two
     of their swings, where they are so at quarter turns without lengths, whatever the parameters, or where one
     stands alone and is positive somewhere and negative elsewhere, or a quadratic in a length,
-    or where one swings along a line on which the other is 0.
+    or where one swings along a line on which the other is 0, or both are a polygon that closes.
     """
     return all(
         _swing_apart(group, signs)
         or any(True for _ in zeros_at_quarters(group))
         or _swings_along(group, signs)
+        or _is_closing(group, signs)
         or (len(group) == 1 and (quadratic_of(group[0]) is not None or _changes_sign(group[0], signs)))
         for group in map(partial(_without_solved, signs=signs), _apart(values))
     )
+
+
+def _is_closing(values: Sequence[Expr], signs: ParameterSigns) -> bool:
+    if len(values) != 2:
+        return False
+    x, y = map(_swings, values)
+    return x is not None and y is not None and bool(_closing(x, y, [], signs))
 
 
 def _without_solved(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
@@ -125,9 +133,9 @@ def _is_turned_to_0(value: Expr, own: Iterable[str]) -> bool:
 def _is_never_zero(value: Expr, zeros: Sequence[Expr], signs: ParameterSigns) -> bool:
     """Whether a value is not 0 where others are that fix its angles, or their tangents."""
     tangents = [turn for turn in map(turn_of, zeros) if turn is not None and turn.rest.is_zero]
-    known = [one.pair for one in tangents if signs.is_positive((one.sine * one.cosine) ** 2)]
+    pairs = [one.pair for one in tangents if signs.is_positive((one.sine * one.cosine) ** 2)]
     if {*signs.open_factors(value)}.issubset(
-        value.ring.generator(place) for pair in known for place in (pair.sine, pair.cosine)
+        value.ring.generator(place) for pair in pairs for place in (pair.sine, pair.cosine)
     ):
         return True
     names = {*coordinates_in(value)}
@@ -212,9 +220,13 @@ def _swings_along(values: Sequence[Expr], signs: ParameterSigns) -> bool:
     return False
 
 
+def _are_free(angles: Sequence[Multiples]) -> bool:
+    """Whether no angle is given by the others."""
+    return not angles or rank([[float(i) for i in n] for n in angles], 0.1) == len(angles)
+
+
 def _are_apart(known: Sequence[Swings], signs: ParameterSigns) -> bool:
-    angles = [[float(i) for i in n] for swings in known for n in swings if any(n)]
-    if angles and rank(angles, 0.1) < len(angles):
+    if not _are_free([n for swings in known for n in swings if any(n)]):
         return False
     moving = [[both for n, both in swings.items() if any(n)] for swings in known]
     return all(len(parts) == 1 or all(_size(both, signs) is not None for both in parts) for parts in moving)
@@ -229,7 +241,15 @@ def _choices(
     turns = [one for one in turns if one]
     for fixed in product(*turns) if 2 ** len(turns) <= MOST_BRANCHES else [()]:
         there = [_at(swings, fixed) for swings in left]
-        bounds = [_reach(swings, [n for n, _, _ in fixed], signs) for swings in there]
+        held = [n for n, _, _ in fixed]
+        closing = {
+            (i, k): sides
+            for i, k in combinations(range(len(there)), 2)
+            if (sides := _closing(there[i], there[k], held, signs))
+        }
+        alone = [there[k] for k in range(len(there)) if not any(k in both for both in closing)]
+        bounds = [_reach(swings, held, signs) for swings in alone]
+        bounds += [not_negative(sides, signs) for sides in closing.values()]
         if None not in bounds:
             yield there, tuple(dict.fromkeys(bound for one in bounds for bound in one or ()))
 
@@ -477,8 +497,7 @@ def _reach(swings: Swings, held: Sequence[Multiples], signs: ParameterSigns) -> 
     """What the parameters must satisfy for a sum of swings to be 0, with some angles `held`; None: never."""
     moving = [n for n in swings if any(n)]
     ring = next((both[0].ring for both in swings.values()), None)
-    angles = [[float(i) for i in n] for n in (*moving, *held)]
-    if ring is None or (angles and rank(angles, 0.1) < len(angles)):
+    if ring is None or not _are_free([*moving, *held]):
         return ()
     constant, sizes = _constant(swings, ring), [_size(swings[n], signs) for n in moving]
     known = [size for size in sizes if size is not None]
@@ -491,6 +510,29 @@ def _reach(swings: Swings, held: Sequence[Multiples], signs: ParameterSigns) -> 
         return ()
     ((cosine, sine),) = (swings[n] for n in moving)
     return not_negative([cosine**2 + sine**2 - constant**2], signs)
+
+
+def _closing(x: Swings, y: Swings, held: Sequence[Multiples], signs: ParameterSigns) -> list[Expr]:
+    """What is not negative if x = y = 0 is a polygon that closes, of sides L (cos φ, sin φ) and a fixed one.
+
+    No side is longer than the others together.  None of any other, and of lengths that are not known.
+    """
+    moving = [n for n in x if any(n)]
+    turned = [{n: (-sign * b, sign * a) for n, (a, b) in x.items() if any(n)} for sign in (1, -1)]
+    if len(moving) < 2 or {n: both for n, both in y.items() if any(n)} not in turned:
+        return []
+    ring = x[moving[0]][0].ring
+    sizes = [size for n in moving if (size := _size(x[n], signs)) is not None]
+    if len(sizes) < len(moving) or not _are_free([*moving, *held]):
+        return []
+    fixed = _constant(x, ring), _constant(y, ring)
+    last = ring.zero if all(map(_is_zero, fixed)) else _size(fixed, signs)
+    if last is None:
+        square = fixed[0] ** 2 + fixed[1] ** 2
+        pairs = [(a, b) for a, b in combinations(sizes, 2) if len(sizes) == 2]
+        return [part for a, b in pairs for part in ((a + b) ** 2 - square, square - (a - b) ** 2)]
+    most = sum(sizes, start=last)
+    return [most - 2 * size for size in (*sizes, last) if not size.is_zero]
 
 
 def _size(swing: tuple[Expr, Expr], signs: ParameterSigns) -> Expr | None:

@@ -1147,11 +1147,11 @@ find: [equilibria]
 
 
 def test_a_product_is_not_lost_when_rows_are_combined() -> None:
-    """By hand: s2 (r c1 + l c12 - x0) = 0, and on the line s2 = 0 is s1 = 0."""
+    """By hand: s2 (r c1 + l c12 - x0) = 0, and on the line s2 = 0 is s1 = 0; x0 < l - r is not reached."""
     crank = CRANK.replace("gravity: [0, -g, 0]", "gravity: none").replace("l > r", "l > r, x0 < l - r")
     spring = "springs: [{energy: k/2*(r*cos(q1) + l*cos(q1 + q2) - x0)^2}]\nfind:"
     solution = dynsolve.solve(crank.replace("find:", spring))
-    assert solution.to_json()["results"]["equilibria"][1] == ["sin(q2) = 0", "sin(q1) = 0"]
+    assert solution.to_json()["results"]["equilibria"] == [["sin(q2) = 0", "sin(q1) = 0"]]
     assert "k r l (r + l) (x_{0} - r - l)" in solution.to_markdown()
 
 
@@ -1954,6 +1954,36 @@ def exist_of(problem: str) -> list[list[str]]:
     assert "only where" not in told and "solutions is not told" not in told
     found: list[list[str]] = dynsolve.solve(problem).to_json()["results"].get("equilibria_exist", [])
     return found
+
+
+CLOSED = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: a}, {theta: q2*, a: b}%s]
+masses: [{mass: M, link: 1}]
+constraints: [%s]
+find: [equilibria]
+"""
+BEHIND = ", {theta: q3*, a: c}"
+
+
+@pytest.mark.parametrize(
+    ("more", "closed", "exist"),
+    [
+        ("", "tip.x - c, tip.y", ["c + a >= b", "c + b >= a", "a + b >= c"]),
+        ("", "tip.x - c, tip.y - d", ["(a + b)**2 >= c**2 + d**2", "c**2 + d**2 - (a - b)**2 >= 0"]),
+        (BEHIND, "tip.x - d, tip.y, q3", ["d + a >= b + c", "d + b + c >= a", "a + b + c >= d"]),
+    ],
+)
+def test_a_chain_closes_where_no_side_is_longer_than_the_others_together(
+    more: str, closed: str, exist: list[str]
+) -> None:
+    """-1 <= cos q2 = (c² - a² - b²)/(2 a b) <= 1, by the law of cosines."""
+    assert exist_of(CLOSED % (more, closed)) == [exist]
+
+
+def test_a_chain_that_is_too_short_never_closes() -> None:
+    told = read(CLOSED.replace("a: b", "a: 4*a") % ("", "tip.x - 2*a, tip.y"))
+    assert "There is no equilibrium." in told
 
 
 def test_where_a_tangent_is_known_its_sine_and_cosine_are_not_0() -> None:
