@@ -146,9 +146,10 @@ def _turned(context: Context, rotor: Rotor) -> tuple[Node, Expr]:
 
 
 def rotor_named(robot: Robot, rotor: Rotor) -> Prose:
-    """The rotor that drives q₂, or that of an angle that is its own."""
+    """The rotor that drives q₂, one geared to a q₂ without a motor, or that of an angle that is its own."""
     q = robot.coordinates[rotor.turns]
-    return (f"The rotor {'of' if robot.is_of_motor(q) else 'that drives'} ", Symbol(q.name))
+    drives = "geared to" if rotor.turns in robot.actions.passive else "that drives"
+    return (f"The rotor {'of' if robot.is_of_motor(q) else drives} ", Symbol(q.name))
 
 
 def _carriers(context: Context) -> Iterator[Prose]:

@@ -71,6 +71,13 @@ def test_a_passive_coordinate_has_no_drive() -> None:
     )
 
 
+def test_the_rotor_of_a_passive_coordinate_does_not_drive_it() -> None:
+    told = page(ACTING)
+    assert "The rotor that drives q₁ has" in told
+    assert "The rotor geared to q₂ has" in told
+    assert "that drives q₂" not in told
+
+
 def test_the_terms_of_a_force_say_what_they_are() -> None:
     table = step("terms").table
     assert table is not None
