@@ -46,7 +46,7 @@ from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notati
 from dynsolve.explain.signs import formulas_in
 from dynsolve.explain.step import NOT_DERIVED, Detail, Step
 from dynsolve.explain.terms import ID, driving_row, rows_in_names
-from dynsolve.explain.writing import is_small, listed, machine, measured, side_by_side
+from dynsolve.explain.writing import listed, machine, measured, side_by_side
 from dynsolve.notation.printing import Style
 from dynsolve.notation.rounding import is_rounded, marked, marked_among_words
 from dynsolve.notation.template import formula
@@ -211,6 +211,13 @@ def in_summary(robot: Robot, steps: Sequence[Step], asked: Sequence[str], is_sho
     return (frozenset(asked) - in_model(robot)) | (in_model(robot) if has_model else frozenset())
 
 
+def stands_twice(robot: Robot, steps: Iterable[Step]) -> bool:
+    """Whether a model in no other letters than its own is short enough to be written in the summary again."""
+    of_model = in_model(robot)
+    nodes = walk(*(node for step in steps if step.id in of_model for node in step.result))
+    return next(islice(nodes, MOST_TWICE, None), None) is None
+
+
 def summary_blocks(
     robot: Robot,
     steps: Sequence[Step],
@@ -229,8 +236,6 @@ def summary_blocks(
     by_id = {step.id: step for step in steps}
     model = by_id.get(ID)
     of_model = in_model(robot) if model else frozenset()
-    if not is_short and detail is not Detail.RESULTS:  # what is short of a long model, if it is asked for
-        of_model -= {name for name in ("D", "g") if name in by_id and is_small(*by_id[name].result)}
     of_steps, read_off = _parted(robot, (name for name in asked if name not in of_model))
     above = [name for name in of_steps if _is_told_above(by_id.get(name), detail, sections)]
     others = [
@@ -248,7 +253,7 @@ def summary_blocks(
     if model is not None and is_short:
         yield from _model(robot, model, by_id, detail, names, forms)
     elif model is not None:
-        yield from _long_model(robot, model, by_id, detail, sections)
+        yield from _long_model(model, by_id, detail, sections, in_letters=short is not None and short.long)
     else:
         rows = tuple(step.result[0] for step in forces)
         if names and names.short.single and names.short.single.name in walk(*names.others) and forces:
@@ -391,18 +396,19 @@ class _Names(Struct):
 
 
 def _long_model(
-    robot: Robot, model: Step, by_id: Mapping[str, Step], detail: Detail, sections: Mapping[Stage, int]
+    model: Step,
+    by_id: Mapping[str, Step],
+    detail: Detail,
+    sections: Mapping[Stage, int],
+    *,
+    in_letters: bool,
 ) -> Iterator[Block]:
-    """Of a long model where D, C and g are; these themselves where no stage shows them."""
+    """Of a long model where D, C and g are; these themselves, in letters, where no stage shows them."""
     if detail is Detail.RESULTS:
         assert model.formula is not None
         yield Formula(model.formula)
-        is_general = "forces" in by_id  # one formula for all rows
-        for name in ("D", "christoffel", "g", "forces") if is_general else ("D", "C", "g"):
-            step = by_id[name]
+        for step in (by_id[name] for name in ("D", "christoffel", "g", "forces") if name in by_id):
             yield from (Formula(result, entries=step.entries) for result in step.result)
-        forces = [] if is_general else _forces(robot, by_id)
-        yield from _rows(robot, forces, [step.result[0] for step in forces]) if forces else ()
         return
     yield Text(model.why)
     assert model.formula is not None
@@ -410,11 +416,14 @@ def _long_model(
     number = sections.get(model.stage)
     place = " are those of the matrix form" if number is None else f" are those of section {number}"
     D, g = (letters.D, Reference(("D",))), (letters.G, Reference(("g",)))
-    if by_id["christoffel"].detail > detail:
+    if not in_letters:
+        yield Text((*listed([D, (letters.C, Reference(("C",))), g]), place, "."))
+    elif by_id["christoffel"].detail > detail:
         yield Text((*listed([D, g]), *say("{place}; $𝐂$ follows from $𝐃$ as it is told there.", place=place)))
         return
-    symbols = say("the Christoffel symbols{which}, which make $𝐂$,", which=Reference(("christoffel",)))
-    yield Text((*listed([D, symbols, g]), place, "."))
+    else:
+        symbols = say("the Christoffel symbols{which}, which make $𝐂$,", which=Reference(("christoffel",)))
+        yield Text((*listed([D, symbols, g]), place, "."))
     if "tau1" in by_id and Stage.TORQUE in sections:
         yield Text(say("The rows of $𝛕$ are those of section {n}.", n=str(sections[Stage.TORQUE])))
     if (row := by_id.get("forces")) is not None:
@@ -618,6 +627,13 @@ class _Parts(Struct, dict=True):
             rewritten(document, words=of_second_edition) if self.solution.problem.edition == 2 else document
         )
 
+    @property
+    def is_short(self) -> bool:
+        """Whether the summary has the model itself, and not where it is."""
+        if self.solution.is_short or (self.short is not None and self.short.long):
+            return self.solution.is_short
+        return self.detail is Detail.RESULTS or stands_twice(self.solution.robot, self.steps)
+
     def opening(self, rounds: bool) -> Iterator[Block]:
         """The title, the source, and how numbers are printed, some of which may be rounded."""
         problem = self.solution.problem
@@ -678,7 +694,7 @@ class _Parts(Struct, dict=True):
         places = {stage: place for place, stage in enumerate(stages_of(robot), 1)}
         inputs = {rule.name: rule.inputs for rule in course_rules(robot)}
         named_from = _first_in_names(self.steps, short)
-        in_closing = in_summary(robot, self.steps, asked, self.solution.is_short)
+        in_closing = in_summary(robot, self.steps, asked, self.is_short)
         shown = Shown(self.detail, inputs, self.solution.style, self.drawn, in_closing)
         own = (step for step in self.steps if step.id != ID)  # that stands in the summary
         for stage, of_stage in groupby(own, attrgetter("stage")):
@@ -694,16 +710,14 @@ class _Parts(Struct, dict=True):
 
     def summary(self) -> Iterator[Block]:
         """The model, and whatever else the exercise asks for."""
-        asked, is_short = self.solution.problem.find, self.solution.is_short
-        robot, sections = self.solution.robot, self.sections
         return summary_blocks(
-            robot,
+            self.solution.robot,
             self.steps,
             self.detail,
             self.short,
-            asked=asked,
-            is_short=is_short,
-            sections=sections,
+            asked=self.solution.problem.find,
+            is_short=self.is_short,
+            sections=self.sections,
             forms=self.solution.forms,
         )
 

@@ -346,6 +346,40 @@ def test_the_summary_says_where_the_forces_are() -> None:
     )
 
 
+FOUR_JOINTS = """
+gravity: [0, 0, -g]
+convention: modified
+dh:
+  - {theta: q1*, d: h}
+  - {theta: q2*, alpha: 90deg}
+  - {d: q3*, alpha: -90deg}
+  - {theta: q4*, alpha: 0, d: t}
+masses:
+  - {mass: m1, link: 2, center: [c, 0, 0], inertia: {xx: A, yy: B, zz: B}}
+  - {mass: m2, link: 4, center: origin, inertia: {xx: J, yy: J, zz: G}}
+"""
+"""An arm whose last frame is long, and whose D, C and g are short."""
+
+
+@pytest.mark.parametrize("detail", [Detail.RESULTS, Detail.BRIEF, Detail.NORMAL])
+def test_the_summary_of_a_short_model_of_many_joints_has_all_of_it(detail: Detail) -> None:
+    whole = page(FOUR_JOINTS, detail)
+    summary = whole.partition("Summary")[2]
+    for name in ("d₁₁", "C₁₁", "𝐠", "τ₁", "f₃"):
+        assert f"    {name} = " in summary
+    assert "those of section" not in summary
+    if detail is not Detail.NORMAL:
+        assert whole.count("    C₁₃ = ") == 1
+
+
+def test_what_is_too_long_to_stand_twice_is_where_it_was_written_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("dynsolve.solution.documents.MOST_TWICE", 100)
+    for detail in (Detail.BRIEF, Detail.NORMAL):
+        whole = page(FOUR_JOINTS, detail)
+        assert "𝐃, 𝐂 and 𝐠 are those of section 7." in whole
+        assert "    C₁₃ = " in whole and "    𝐠 = " not in whole.partition("Summary")[2]
+
+
 def test_an_arm_of_numbers_and_letters_has_decimals_and_units_everywhere() -> None:
     shown = page(
         "gravity: [0, 0, -9.81]\n"
