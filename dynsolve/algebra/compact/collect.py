@@ -365,9 +365,11 @@ class Collector:
                 return factor, ()
             if any(abs(Fraction(f) / shared) > SMALL_WHOLE for f in scaled.values()):
                 shared = 1
-        terms = [self.product(exact(f, shared), mono, ()) for mono, f in scaled.items()]
-        own, whole = self.decompose(total(terms))
-        return shared * own, whole
+        parts = [self.decompose(self.product(exact(f, shared), mono, ())) for mono, f in scaled.items()]
+        # what is left in the terms may share a number again: (2M₁ b² + 2M₂ (3b² + c²))/6
+        again = whole_content(f for f, _ in parts) if shared != 1 else 1
+        own, whole = self.decompose(total([self.product(exact(f, again), mono, ()) for f, mono in parts]))
+        return shared * again * own, whole
 
     def _half_a_square(self, factor: Rational, atom: int) -> int | None:
         """The sum of ½ (q - 1/4)², which is (4q - 1)²/32."""

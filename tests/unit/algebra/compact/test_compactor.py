@@ -175,6 +175,10 @@ def test_a_minus_stands_where_a_textbook_has_it(written: str, printed: str) -> N
         ("4*m1*a^2/3 + 4*m1*b^2 + m1*c^2/4", "m1*(4*a**2/3 + 4*b**2 + c**2/4)"),
         ("(4*sin(q1) + sin(q2)/2)*a", "a*(4*sin(q1) + sin(q2)/2)"),
         ("m1*(a^2/12 + b^2)", "m1*(a**2/12 + b**2)"),
+        (  # no (2*m1*b**2 + 2*m2*(3*b**2 + c**2))*(...)/6
+            "(m1*b^2 + m2*(3*b^2 + c^2))*(2*q1_dot*q2_dot + q2_dot^2)/3",
+            "(m1*b**2 + m2*(3*b**2 + c**2))*(2*q1_dot*q2_dot + q2_dot**2)/3",
+        ),
     ],
 )
 def test_no_number_stands_before_a_sum_of_fractions(written: str, printed: str) -> None:
