@@ -68,7 +68,6 @@ _BESIDE = {Stage.LAGRANGIAN: ("torque", "lagrangian_steps")}
 _IN_LETTERS = {Stage.VECTORIZED: ("long_model.vectorized", "steps")}
 """The stages that have a file of their own where a long model stays in letters."""
 
-
 _Told = Callable[[Iterator[Step], Stage], Iterator[Step]]
 
 

@@ -485,9 +485,9 @@ class ProductForms:
             return self.matrix(value)
         return self.compactor.matrix(value) if isinstance(value, Matrix) else self.compactor.form(value)
 
-    def form(self, expr: Expr) -> Node:
+    def form(self, expr: Expr, *, apart: bool = False) -> Node:
         """The shorter of the product of an expression's factors and its compact form."""
-        coefficient, factors = self._factors(expr)
+        coefficient, factors = self._factors(expr, apart=apart)
         return times(coefficient, factors, decimal=self.decimal)
 
     def determinant(self, value: Expr, jacobian: Matrix) -> Node:

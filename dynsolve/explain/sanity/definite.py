@@ -93,9 +93,9 @@ def _singular(context: Context, seen: list[Place] | None) -> Step | None:
     places = [] if value.is_zero else [*_vanishing(context, value, moving)]
     if not (value.is_zero or places):
         return None
-    reason = "In every pose {det}"
+    reason, det = "In every pose {det}", _determinant(context, value)
     if places:
-        follows = cost(context.show(value)) <= LONGEST and all(len(zeros) == 1 for zeros, _ in seen or ())
+        follows = isinstance(det, Relation) and all(len(zeros) == 1 for zeros, _ in seen or ())
         reason = f"{'{det}, so ' * follows}$𝐃$ has no inverse{' at least' * (not is_all)} where {{places}}"
     elif zero:
         reason = "In every pose row {zero} of $𝐃$ is 0, so {det}"
@@ -104,7 +104,7 @@ def _singular(context: Context, seen: list[Place] | None) -> Step | None:
     told = say(
         f"{reason}: some rates that are not 0 have no kinetic energy, and the forces do not determine all "
         f"accelerations.{_ELSE * (bool(seen) and all(bounds for _, bounds in seen or ()))}",
-        det=_determinant(context, value),
+        det=det,
         zero=zero,
         i=equal[0],
         j=equal[1],
@@ -330,8 +330,8 @@ _SIGNS = (
 
 
 def _determinant(context: Context, value: Expr) -> Node:
-    """det D, and what it is where that is of use."""
-    name, form = Row((Words("det "), letters.D)), context.show(value)
+    """det D, and by its factors what it is where that is of use."""
+    name, form = Row((Words("det "), letters.D)), context.forms.products.form(value, apart=True)
     return equation(name, form) if cost(form) <= LONGEST else name
 
 

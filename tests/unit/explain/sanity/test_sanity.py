@@ -454,6 +454,23 @@ def is_definite(found: Context, state: dict[str, float]) -> bool:
     return bool(np.linalg.eigvalsh(matrix).min() > 1e-12)
 
 
+ELBOW = """
+dh: [{theta: q1*, a: e, alpha: 90deg}, {theta: q2*, a: p}, {theta: q3*, a: r}]
+masses: [{mass: m, link: 3}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "factors"),
+    [
+        (ELBOW, "m³ p² r² sin²(q₃) (e + p cos(q₂) + r cos(q₂ + q₃))²"),
+        (POLAR, "m³ q₃² (e + q₃ sin(q₂))²"),
+    ],
+)
+def test_a_determinant_shows_the_factors_that_may_be_0(problem: str, factors: str) -> None:
+    assert said(problem, "definite").startswith(f"det D = {factors}, so D has no inverse where ")
+
+
 @pytest.mark.parametrize(
     ("rows", "mass", "told"),
     [
