@@ -270,7 +270,7 @@ def _decimal(coefficient: Fraction | int, above: list[Node]) -> Node:
     return Product((front, *above)) if above else front
 
 
-def _ends(denominator: int) -> bool:
+def ends(denominator: int) -> bool:
     """Whether a fraction with this denominator is a decimal that comes to an end."""
     for prime in (2, 5):
         while denominator % prime == 0:
@@ -280,7 +280,7 @@ def _ends(denominator: int) -> bool:
 
 def _is_decimal(denominator: int) -> bool:
     """Whether a fraction was surely written as a decimal: 981/200 is 4.905, but 2/5 and 3/8 are fractions."""
-    return denominator % 25 == 0 and _ends(denominator)
+    return denominator % 25 == 0 and ends(denominator)
 
 
 def _fraction(coefficient: Fraction | int, above: list[Node], below: list[Node]) -> Node:

@@ -9,10 +9,10 @@ does, what differs is said, and no more.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
-from itertools import zip_longest
+from itertools import chain, zip_longest
 from typing import Any
 
 from msgspec import Struct
@@ -221,13 +221,8 @@ class Diagnoser:
             yield slip("constant_term")
         values = [nearest] if nearest == key else [nearest, key]
         cases = [[Case(wrong, *pair) for pair in self._with_numbers(mine, value)] for value in values]
-        explained = (
-            (case, one)
-            for alike in zip_longest(*cases)
-            for stage in (_IN_ORDER[:-1], _IN_ORDER[-1:])
-            for case in filter(None, alike)
-            for explain in stage
-            for one in explain(self, case)
+        explained = chain.from_iterable(
+            self._explained([case for case in alike if case is not None]) for alike in zip_longest(*cases)
         )
         case, found = next((pair for pair in explained if pair[1].holds(pair[0])), (cases[0][0], None))
         told: Iterable[Diagnosis] = ()
@@ -241,6 +236,12 @@ class Diagnoser:
             is_of_entry = one.code in _OF_GRAVITY and wrong.called.startswith("Entry")
             of_entry = f"{wrong.called}: " if is_of_entry else ""
             yield replace(one, message=f"{first}{of_entry}{one.message}")
+
+    def _explained(self, cases: Sequence[Case]) -> Iterator[tuple[Case, Explanation]]:
+        """One slip, of the first case that has it; else several, of that case which has the fewest."""
+        yield from ((case, one) for case in cases for explain in _IN_ORDER for one in explain(self, case))
+        several = [(case, one) for case in cases for one in self._several_terms(case)]
+        yield from sorted(several, key=lambda pair: len(pair[1].mends))
 
     def _of_fractions(self, wrong: WrongEntry) -> Iterator[Diagnosis]:
         """What differs above the denominator of the nearest value, as the answer writes it."""
@@ -436,9 +437,8 @@ _IN_ORDER: tuple[Callable[[Diagnoser, Case], Iterator[Explanation]], ...] = (
     Diagnoser._one_bracket,
     Diagnoser._earlier_step_otherwise,
     Diagnoser._throughout,
-    Diagnoser._several_terms,
 )
-"""The explanations in the order in which they are tried: the first that holds is told."""
+"""The explanations in the order in which they are tried, the first that holds; then several slips."""
 
 _OF_TERMS = (
     Diagnoser._one_number,

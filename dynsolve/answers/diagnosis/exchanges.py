@@ -27,6 +27,7 @@ from msgspec import Struct
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.answers.diagnosis.factors import FactorPairs, Found
 from dynsolve.answers.diagnosis.mends import (
     Exchange,
@@ -89,7 +90,9 @@ class Exchanges:
         if written < 0 and ratio > 0:
             written = -written
         mend = Exchange(have * (1 / written), constant(written), constant(written * ratio))
-        return TermSlip(1 if abs(ratio) in (2, Fraction(1, 2)) else 2, "factor", mend)
+        is_number = mend.rest.is_number or max(abs(ratio.numerator), ratio.denominator) > COARSE
+        code = "number" if is_number else "factor"
+        return TermSlip(1 if abs(ratio) in (2, Fraction(1, 2)) else 2, code, mend)
 
     def named(self, mend: Exchange, code: str = "") -> TermSlip:
         """An exchange of symbols or of functions under its name; `code` is that of two functions."""
@@ -168,6 +171,8 @@ class Exchanges:
             assert strange is not None
             return slip("unknown_symbol", part=words.generator(strange))
         term = mend.have if one.code in ("sign", "extra_term") else mend.want
+        if one.code == "number":
+            return slip("number", yours=words.in_decimals(mend.have), other=words.in_decimals(mend.want))
         left_out = mend.written == self.ring.one
         return slip(
             one.code,
@@ -323,15 +328,40 @@ class TermDiagnoser:
             return []
         ours, theirs = parts(mine), parts(expected)
         same = [m for m in ours if m in theirs]
-        found = [slip for m in same for slip in self._in_part(ours.pop(m), theirs.pop(m))]
+        found = [slip for m in same for slip in self._in_part(m, ours.pop(m), theirs.pop(m))]
         return _joined([*found, *self._matched(list(ours.items()), list(theirs.items()))])
 
-    def _in_part(self, mine: Expr, expected: Expr) -> Iterator[TermSlip]:
-        """The slip in a part that both have."""
+    def _in_part(self, monomial: Monomial, mine: Expr, expected: Expr) -> Iterator[TermSlip]:
+        """The slip in a part that both have; without symbols, as in a model in numbers, in its terms."""
         if mine == expected:
             return
         found = self.one_place(mine, expected)
-        yield found or TermSlip(5, "trig_part", Exchange(self.ring.one, mine, expected))
+        if found is not None or monomial:
+            yield found or TermSlip(5, "trig_part", Exchange(self.ring.one, mine, expected))
+        else:
+            yield from self._in_numbers(self._by_function(mine), self._by_function(expected))
+
+    def _in_numbers(self, ours: dict[str, Expr], theirs: dict[str, Expr]) -> Iterator[TermSlip]:
+        """The number before a function that both have; else one function for another."""
+        for function in ours.keys() & theirs.keys():
+            have, want = ours.pop(function), theirs.pop(function)
+            ratio = ratio_of(want, have)
+            if ratio is not None and ratio != 1:
+                yield self.exchanges.number(have, ratio)
+        for function, have in tuple(ours.items()):
+            pairs = ((self.one_place(have, want), other) for other, want in theirs.items())
+            near = [(one, other) for one, other in pairs if one is not None and one.weight < HEAVY]
+            if near:
+                one, other = min(near, key=lambda pair: pair[0].weight)
+                del ours[function], theirs[other]
+                yield one
+        yield from map(self.exchanges.missing, theirs.values())
+        yield from map(self.exchanges.needless, ours.values())
+
+    def _by_function(self, expr: Expr) -> dict[str, Expr]:
+        """The terms as they are written, by what each is but for its number."""
+        values = [value_of(self.ring, node) for node in _summands(self.exchanges.words.form(expr))]
+        return {str((one * (1 / fraction(one.poly.leading_coefficient()))).poly): one for one in values}
 
     def _matched(self, mine: list[Part], expected: list[Part]) -> list[TermSlip]:
         """Pairs of parts with the slip between them, the lightest first; what is left is missing or extra."""
@@ -371,6 +401,17 @@ class TermDiagnoser:
         return TermSlip(found.weight + 2 * (ratio != 1), found.code, found.mend) if is_likely else None
 
 
+def _summands(node: Node) -> Iterator[Node]:
+    """The terms of a sum; of a number times a sum each with that number."""
+    match node:
+        case Sum(terms):
+            yield from terms
+        case Product((Number() as number, Sum(terms))):
+            yield from (Product((number, term)) for term in terms)
+        case _:
+            yield node
+
+
 LIKELY = {"symbol", "dropped_dot", "extra_dot", "odd_argument", "unknown_symbol"}
 
 
@@ -391,7 +432,7 @@ def _joined(found: list[TermSlip]) -> list[TermSlip]:
     result = []
     for (code, _, _), same in groupby(sorted(found, key=kind), key=kind):
         alike = list(same)
-        if len(alike) == 1 or code in ("missing_term", "extra_term", "trig_part", "factor", "sign"):
+        if len(alike) == 1 or code in ("missing_term", "extra_term", "trig_part", "factor", "number", "sign"):
             result += alike
             continue
         rest = sum((one.mend.rest for one in alike[1:]), alike[0].mend.rest)

@@ -27,7 +27,7 @@ from dynsolve.answers.judging.key_comparison import Target
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.explain.context import style_of
 from dynsolve.explain.forms import leading_names, parallel_coordinates
-from dynsolve.notation.build import power
+from dynsolve.notation.build import ends, power, times
 from dynsolve.notation.tree import Function, Negative, Node, Number, Product, Quotient, Symbol, number
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.index import Quantity
@@ -163,6 +163,12 @@ class TermWriter:
     def number(self, value: Fraction) -> str:
         """A number."""
         return self._printer.text(number(value))
+
+    def in_decimals(self, expr: Expr) -> str:
+        """A term in one line, with a decimal before it where a fraction ends as one: 9.8 s₁₂, not 49s₁₂/5."""
+        before = self.coefficient(expr)
+        rest = self.form(expr * (1 / before))
+        return self._printer.text(times(before, [(rest, 1)], decimal=ends(before.denominator)))
 
     def coefficient(self, expr: Expr) -> Fraction:
         """The number before an expression as a person writes it."""
@@ -351,6 +357,9 @@ def what_differs(words: TermWriter, called: str, mine: Expr, expected: Expr) -> 
     if mine.is_zero:
         yield slip("zero", yours=called)
         return
+    if mine.is_number and not expected.is_number:
+        yield slip("constant", yours=called, part=words.of(mine))
+        return
     letters = letters_in_numbers(mine, expected)
     if letters:
         yield slip("numbers_for_letters", other=_listed([words.generator(g) for g in letters]))
@@ -366,8 +375,9 @@ def what_differs(words: TermWriter, called: str, mine: Expr, expected: Expr) -> 
     if missing:
         said.append(f"{missing} {'is' if missing == 1 else 'are'} missing.")
     if changed:
-        terms = [words.of(monomial_expr(mine.ring, monomial)) for monomial in changed]
-        said.append(f"Another factor belongs to {_listed(terms)}.")
+        terms = [words.of(monomial_expr(mine.ring, monomial)) for monomial in changed if monomial]
+        said += [f"Another factor belongs to {_listed(terms)}."] if terms else []
+        said += ["What has no letter is not right."] if () in changed else []
     if extra:
         said.append(f"Not among the right terms: {_listed([words.of(term) for term in extra])}.")
     yield slip("terms_differ", yours=" ".join(said))

@@ -140,6 +140,7 @@ _FORMS = [
          r" (?:is left out|should be squared)\.", "left out"),
         (r"In (?P<y>.+) the (?:factor )?(?P<p>.+) (?:is too many|has one power too many)\.", "too many"),
         (r"In (?P<y>.+) stands (?P<p>.+) where (?:its derivative )?(?P<o>.+) belongs\.", "instead"),
+        (r"(?P<y>.+) stands where (?P<o>.+) belongs\.", "another"),
     )
 ]  # fmt: skip
 
@@ -166,6 +167,7 @@ def mended(message: str, mine: float, seed: int, read: Callable[[str], Node]) ->
             "left out": [mine - y + y * p],
             "too many": [mine - y + y / p],
             "instead": exchanged,
+            "another": [mine - y + o],
         }[claim]
     return None
 

@@ -16,6 +16,16 @@ class Example:
 IN3140 = "in3140-rp"
 PLANAR_2R = "planar-2r"
 
+NUMBERS = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses:
+  - {mass: m1, link: 1, shape: point, center: midpoint}
+  - {mass: m2, link: 2, shape: point, center: tip}
+values: {l1: 0.6, l2: 0.5, m1: 4, m2: 2, g: 9.81}
+find: [D, g, P]
+"""
+
 HELD = """
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
 velocity: [v, 0]
@@ -66,6 +76,19 @@ EXAMPLES: dict[str, Example] = {
     "factor": Example(IN3140, "tau1", "(I1zz + m2*L2^2)*theta1_ddot + m2*L2*L2_dot*theta1_dot"),
     "rounded_all": Example(IN3140, "Kw1", "0.497*I1zz*theta1_dot^2"),
     "factor_all": Example(IN3140, "Kw1", "I1zz*theta1_dot^2"),
+    "number": Example(
+        NUMBERS, "D", [["2.66 + 1.2*cos(q2)", "0.5 + 0.6*cos(q2)"], ["0.5 + 0.6*cos(q2)", "0.5"]]
+    ),
+    "constant": Example(
+        PLANAR_2R,
+        "A1",
+        [
+            ["2", "-sin(q1)", "0", "l1*cos(q1)"],
+            ["sin(q1)", "cos(q1)", "0", "l1*sin(q1)"],
+            ["0", "0", "1", "0"],
+            ["0", "0", "0", "1"],
+        ],
+    ),
     "missing_term": Example(PLANAR_2R, "d11", "m1*lc1^2 + m2*(l1^2 + lc2^2) + I1 + I2"),
     "terms_missing": Example(PLANAR_2R, "d11", "I1 + m2*l1^2"),
     "zero": Example(IN3140, "K", "0"),

@@ -13,6 +13,7 @@ from dynsolve.answers.diagnosis.own_steps import DerivationSlips, MatrixDiagnose
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.verdict import Answer, Place, Submission
 from dynsolve.errors import ExplanationWarning
+from tests.unit.answers.diagnosis.slip_examples import NUMBERS
 from tests.unit.answers.hands import Text, checker, codes, judge, judged, problem
 from tests.unit.answers.test_generated import forms, graph
 
@@ -259,6 +260,23 @@ def test_fractions_that_a_slip_leads_to_are_told_of_it(name: str) -> None:
         assert str(answer.verdict) == ("correct" if value == right else "wrong"), told
         found |= set(codes(answer))
     assert "rotation_missing" in found
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("P", "23.54*sin(q1) + 9.8*sin(q1+q2)",
+         ["23.54 s₁ stands where 23.544 s₁ belongs.", "9.8 s₁₂ stands where 9.81 s₁₂ belongs."]),
+        ("D", [["2.66 + 1.2*cos(q2)", "0.5 + 0.6*cos(q2)"], ["0.5 + 0.6*cos(q2)", "0.5"]],
+         ["2.66 stands where 1.58 belongs."]),
+        ("g", [["23.544*sin(q1) + 9.81*sin(q1+q2)"], ["9.81*cos(q1+q2)"]],
+         ["In 23.544 s₁ stands s₁ where c₁ belongs.", "In 9.81 s₁₂ stands s₁₂ where c₁₂ belongs."]),
+        ("g", [["23.544*cos(q1) + 9.81*cos(q1+q2)"], ["9.81"]],
+         ["In 9.81 the factor c₁₂ is left out."]),
+    ],
+)  # fmt: skip
+def test_a_model_in_numbers_is_spoken_of_by_its_terms(name: str, text: Text, told: list[str]) -> None:
+    assert sorted(d.message for d in judged(NUMBERS, name, text).diagnosis) == sorted(told)
 
 
 HANGING = """
