@@ -168,17 +168,20 @@ class Diagnoser:
         )
 
     def _entry_of_coriolis(self, row: WrongEntry, compared: KeyComparison) -> WrongEntry | None:
-        """The one entry of C that, put right, gives what is expected of its row of C q̇."""
+        """The one entry of C that, put right, gives what is expected of its row of C q̇, or the key's row."""
         rows, k = compared.answer_value.rows or (), row.row
         if row.mine is None or row.mine.is_zero:
             return None
+        expected: dict[int, list[Expr]] = {}
         for C in (self.steps.done_right("C"), self.graph.key("C")):
             different = [j for j, entry in enumerate(rows[k]) if entry != RationalExpr(C[k, j])]
-            if len(different) == 1 and (C @ velocities(self.graph.robot))[k, 0] == self.expected(row):
-                (j,) = different
-                written = replace(row.written, value=rows[k][j], node=compared.answer_value.nodes[k][j])
-                target, called = Target("C", (k, j)), f"Entry ({k + 1}, {j + 1}) of C"
-                return WrongEntry(row.name, target, written, (C[k, j],), k, j, called)
+            led = (C @ velocities(self.graph.robot))[k, 0]
+            if len(different) == 1 and led in (self.expected(row), row.expected[-1]):
+                expected.setdefault(different[0], []).append(C[k, different[0]])
+        for j, values in expected.items():
+            written = replace(row.written, value=rows[k][j], node=compared.answer_value.nodes[k][j])
+            target, called = Target("C", (k, j)), f"Entry ({k + 1}, {j + 1}) of C"
+            return WrongEntry(row.name, target, written, tuple(values), k, j, called)
         return None
 
     def expected(self, wrong: WrongEntry) -> Expr:

@@ -197,6 +197,20 @@ def test_of_C_that_is_spoken_of_which_is_to_be_mended(C: list[list[str]], told: 
     assert [d.message.startswith(told) for d in found.diagnosis] == [True], found.diagnosis
 
 
+def test_an_entry_of_C_that_is_twice_the_keys_is_told_so_beside_a_wrong_D() -> None:
+    """By the sine for a cosine in D, C has a cosine, of which -2 sin is no factor that anybody lost."""
+    wagon = """
+gravity: none
+model:
+  coordinates: {s: prismatic, phi: revolute}
+  D: [[M, m*a*cos(phi)], [m*a*cos(phi), J]]
+find: [D, C]
+"""
+    D: Text = [["M", "m*a*sin(phi)"], ["m*a*sin(phi)", "J"]]
+    found = judged(wagon, "C", [["0", "-2*m*a*sin(phi)*phi_dot"], ["0", "0"]], D=D)
+    assert [d.message for d in found.diagnosis] == ["Entry (1, 2) of C is 2 times what it should be."]
+
+
 def test_one_entry_that_is_doubled_is_not_the_whole_matrix() -> None:
     D = [["2*(I1zz + m2*L2^2)", "0"], ["0", "m2"]]
     assert [d.message for d in judged(RP, "D", D).diagnosis] == ["Entry (1, 1) is 2 times what it should be."]
