@@ -308,8 +308,9 @@ def in_order(graph: AnswerGraph, names: Iterable[str]) -> tuple[str, ...]:
 def waiting(answer: JudgedAnswer, fault: str) -> JudgedAnswer:
     """A wrong answer that a human has to look at, and why."""
     return replace(
-        answer, verdict=Verdict.UNREADABLE, fault=fault, entries=(), diagnosis=(), difference=None, loss=""
-    )
+        answer, verdict=Verdict.UNREADABLE, fault=fault, waits=True, entries=(), diagnosis=(),
+        difference=None, loss="",
+    )  # fmt: skip
 
 
 # The verdict of a set of configurations: singular ones, branches of the inverse kinematics
@@ -352,7 +353,7 @@ def judged_set(
             if key.is_where_zero(answer, own.value):
                 return replace(base, verdict=Verdict.FOLLOWS, follows_from=in_order(graph, own.used))
         if sources := in_order(graph, explanations.before(zero, unread)):
-            return replace(base, fault=MAY_FOLLOW.format(" and ".join(sources)))
+            return replace(base, fault=MAY_FOLLOW.format(" and ".join(sources)), waits=True)
     fault = told(key.fault(answer.name, found.code), number=str(found.number), where=found.where)
     return replace(base, verdict=Verdict.WRONG, diagnosis=(fault,))
 

@@ -81,7 +81,7 @@ class FeedbackView(Struct, frozen=True):
 
 def feedback(report: Report, title: str, view: FeedbackView) -> Document:
     """The report as a document."""
-    rows = tuple((_named(one), _SAID[one.verdict], "; ".join(_remarks(one))) for one in report.answers)
+    rows = tuple((_named(one), _said(one), "; ".join(_remarks(one))) for one in report.answers)
     blocks = (
         Heading(title, 1),
         *_marks(report),
@@ -129,7 +129,7 @@ def slips(report: Report, view: FeedbackView) -> Iterator[Block]:
             yield Fold(f"{_named(answer)}: wrong", tuple(_wrong(answer, view)))
     for answer in report.answers:
         if answer.verdict is Verdict.UNREADABLE and answer.given:
-            yield Fold(f"{_named(answer)}: could not be read", tuple(_unreadable(answer, view)))
+            yield Fold(f"{_named(answer)}: {_said(answer)}", tuple(_unreadable(answer, view)))
 
 
 def not_recognized(report: Report) -> Iterator[Block]:
@@ -156,6 +156,10 @@ def _number(value: object) -> str:
 
 def _named(answer: JudgedAnswer) -> str:
     return f"{answer.name} {answer.label}".strip()
+
+
+def _said(answer: JudgedAnswer) -> str:
+    return "for a human to judge" if answer.waits else _SAID[answer.verdict]
 
 
 def _where(answer: JudgedAnswer) -> str:
@@ -308,7 +312,7 @@ def readings(report: Report, view: FeedbackView) -> Iterator[Block]:
         yield Heading("How the answers were read")
     for answer in read:
         remarks = "; ".join(_remarks(answer)) if view.readings else ""
-        told = f", {_SAID[answer.verdict]}" + (f" ({remarks})" if remarks else "")
+        told = f", {_said(answer)}" + (f" ({remarks})" if remarks else "")
         yield from _reading(f"{_named(answer)}{_where(answer)}{told}", answer)
 
 

@@ -34,7 +34,7 @@ import os
 import pickle
 import signal
 import traceback
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, TypeVar
@@ -144,7 +144,8 @@ def unwritten(graph: AnswerGraph, name: str, of: Fraction, answers: Answers) -> 
     verdict = worst([part.verdict for part in parts])
     used = [source for part in parts for source in part.follows_from] if verdict is Verdict.FOLLOWS else []
     found = JudgedAnswer(name, verdict, parts[0].label, parts[0].place, of=of, given=False, notes=(BY_PARTS,))
-    return replace(found, follows_from=in_order(graph, used))
+    waits = all(part.waits for part in parts if part.verdict is Verdict.UNREADABLE)
+    return replace(found, follows_from=in_order(graph, used), waits=waits and verdict is Verdict.UNREADABLE)
 
 
 def _incomplete(graph: AnswerGraph, name: str, answers: Answers) -> Iterator[str]:
@@ -431,10 +432,17 @@ class Judge:
             if doubt := compared.answer_value.answer.doubt:
                 found[name] = waiting(answer, NOT_GENERAL.format(doubt))
             elif unread and not compared.obstacles:
-                sources = in_order(self.graph, self.explanations.hanging_on(compared, unread))
+                sources = self._not_or(in_order(self.graph, self.explanations.hanging_on(compared, unread)))
                 if sources:
                     found[name] = waiting(answer, MAY_FOLLOW.format(" and ".join(sources)))
         return found
+
+    def _not_or(self, names: Sequence[str]) -> list[str]:
+        """Answers that could not be read, the first of those that one equation may be: V is P, or C q̇."""
+        others: set[str] = set()
+        for one in self.submission.not_recognized:
+            others |= set([name for name in one.answers if name in names][1:])
+        return [name for name in names if name not in others]
 
     def _ledger(self, answers: dict[str, JudgedAnswer]) -> Ledger:
         """What becomes of the equations that are none of the answers; formulas that count are."""

@@ -210,6 +210,7 @@ class Occurrence(Struct, frozen=True):
 class JudgedAnswer(Struct, frozen=True):
     """What is said of one answer; `written` is the tree of what the student wrote.
 
+    `waits`: it was read and is not the key's, and a human has to judge it.
     What it is worth beside its verdict (`zero`, `empty`, `loss`, `parts`) is explained in
     `marks`.
     """
@@ -232,6 +233,7 @@ class JudgedAnswer(Struct, frozen=True):
     key: Node | None = None
     given: bool = True
     written: Node | None = None
+    waits: bool = False
     zero: bool = False
     empty: bool = False
     loss: str = ""

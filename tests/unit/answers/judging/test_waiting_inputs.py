@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from dynsolve.answers.feedback import FeedbackView, feedback
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
+from dynsolve.render.markdown import render
 from tests.unit.answers.hands import checker
 from tests.unit.answers.judging.elbow import ELBOW
 
@@ -54,6 +56,21 @@ def test_a_consequence_of_what_was_not_read_waits(before: str, source: str) -> N
 )
 def test_what_cannot_follow_from_it_is_wrong(lines: tuple[str, ...]) -> None:
     assert judged(*lines).verdict is Verdict.WRONG
+
+
+def test_of_the_answers_that_one_letter_names_the_first_is_told() -> None:
+    """V is the potential energy, or C q̇: none of the latter stands there."""
+    turning = r"(m_2 (l_{c2}^2 + l_1 l_{c2} \cos q_2) + I_2) \ddot q_1 + (m_2 l_{c2}^2 + I_2) \ddot q_2"
+    torque = rf"\tau_2 = {turning} + m_2 l_1 l_{{c2}} \sin q_2 \dot q_1^2 + 2 {G2}"
+    answer = judged(f"$$V = {UNREAD}$$", f"$${torque}$$", name="tau2")
+    assert "may follow from P, which could not be read" in answer.fault
+
+
+def test_what_was_read_is_not_said_to_be_unreadable() -> None:
+    check = checker(ELBOW)
+    report = check(check.reader(f"$$P = {UNREAD}$$\n\n{WRONG_G}", "a.md"))
+    page = render(feedback(report, "a.md", FeedbackView()))
+    assert "g: for a human to judge" in page and "g: could not be read" not in page
 
 
 def test_what_is_right_or_follows_from_what_was_read_does_not_wait() -> None:
