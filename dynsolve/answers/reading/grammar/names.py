@@ -39,8 +39,11 @@ _SPELLED_RATES = {"qdot": 1, "dq": 1, "qd": 1, "qddot": 2, "ddq": 2, "qdd": 2}
 _NEED_AN_INDEX = frozenset("Jv Jw Kv Kw Jomega Komega I omega v A H R".split())
 
 
-def only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
-    r"""The coordinate that `\dot\theta` is where there is only one θ: in a scalar, without a transpose."""
+def only_coordinate(reader: Reader, form: Form, name: str, text: str = "") -> Value | None:
+    r"""The coordinate that `\dot\theta` is where there is only one θ: in a scalar, without a transpose.
+
+    `text` is what of it is said to be read so, where that is not all: th of dth.
+    """
     is_one = len(reader.vocabulary.coordinates) == 1 and reader.vocabulary.is_vector(name)
     is_marked = form.dots or form.scripts.mark or name in _ANGLES or is_one
     if reader.naming or form.scripts.transposed or not is_marked:
@@ -58,7 +61,7 @@ def only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
         return None
     form.scripts.primes = 0
     reader.symbols.setdefault(symbol.name)
-    reader.notes.setdefault(f"{form.text} is read as {symbol.name}")
+    reader.notes.setdefault(f"{text or form.text} is read as {symbol.name}")
     skip_arguments(reader)
     return reader.with_scripts(value, form.scripts, form.start)
 
@@ -70,7 +73,7 @@ def _only_rate(reader: Reader, form: Form, name: str) -> Value | None:
     if found is None or not 0 < order + form.dots < 3 or (found["d"] and found["dots"]):
         return None
     form.dots += order
-    value = only_coordinate(reader, form, found["name"])
+    value = only_coordinate(reader, form, found["name"], found["name"])
     form.dots -= order
     return value
 

@@ -271,6 +271,7 @@ def test_a_name_of_the_own_that_makes_an_answer_right_is_none(
 def test_the_rate_of_the_only_angle_by_another_letter(rate: str) -> None:
     (answer,) = report(f"K = m*l^2*{rate}^2", "a.txt", stem="cart-pole").answers
     assert shown(answer) == "m l² θ̇²"
+    assert answer.notes == ("th is read as theta",)
 
 
 def test_a_letter_of_the_coordinates_that_is_given_a_scalar_is_one() -> None:
