@@ -462,7 +462,7 @@ def _balance_of(robot: Robot, forces: Node, values: Node) -> Node:
     rows = wanted_rows(robot)
     if len(rows) == robot.n or not isinstance(values, MatrixTree):
         return equation(forces, *([values] if is_small(values) else []), _ZERO)
-    return as_row(listed([equation(_force(robot, k), values.rows[k][0], Number(0)) for k in rows]))
+    return side_by_side([equation(_force(robot, k), values.rows[k][0], Number(0)) for k in rows])
 
 
 def _force(robot: Robot, k: int) -> Node:

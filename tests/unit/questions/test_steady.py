@@ -146,3 +146,13 @@ def test_why_a_factor_is_no_case_is_said() -> None:
     shown = " ".join(report(dynsolve.solve(TILTED), Format.TEXT).decode().split())
     assert "Where q₃ = 0, m g s₂ - k r is not 0." in shown
     assert "In case 1, where W² (m g + k r) > g k: stable where k > m W², not stable where k < m W²." in shown
+
+
+def test_two_long_equations_of_a_motion_are_two_lines() -> None:
+    three = (
+        "dh: [{theta: phi*, d: h, alpha: 90deg}, {theta: q2*, a: a}, {theta: q3*, a: b}]\n"
+        "masses: [{mass: m, link: 3}]\nsteady: {phi: W}\nfind: [equilibria]\n"
+    )
+    told = report(dynsolve.solve(three), Format.TEXT).decode()
+    assert "    τ₃ = " in told
+    assert "and τ₃" not in told
