@@ -40,6 +40,12 @@ def answer_meant(names: Quantities, text: str) -> str:
     >>> names = Quantities(Owners(1, (Coordinate("q1", JointType.REVOLUTE, 1),), ("1",), frozenset("1")))
     >>> [answer_meant(names, word) for word in ("Torques", "kinetic energy 1", "inertia-matrix", "foo")]
     ['did you mean `tau`?', 'did you mean `K1`?', 'did you mean `D`?', '']
+
+    Of a family that has no such member the others are told, and no other family's.
+
+    >>> names = Quantities(Owners(2, (Coordinate("q1", JointType.REVOLUTE, 1),), ("1", "p")))
+    >>> answer_meant(names, "Jv2")
+    'answers of this kind are `Jv1`, `Jvp`'
     """
     words = text.strip().lower()[:60]
     digits = words[len(words.rstrip("0123456789")) :]
@@ -49,7 +55,15 @@ def answer_meant(names: Quantities, text: str) -> str:
     meant = called[close[0]] if close else ""
     if meant and digits:
         meant = names.canonical(meant + digits) or meant
-    meant = meant or nearest(text, names.examples())
+    stem = text.strip().rstrip("0123456789")
+    members = [
+        name
+        for name in names.examples()
+        if re.fullmatch(rf"{re.escape(stem)}\{{\w\}}", names[name].family.name)
+    ]
+    if len(members) > 1 and not meant:
+        return f"answers of this kind are {', '.join(f'`{name}`' for name in members)}"
+    meant = meant or nearest(text, members or names.examples())
     return f"did you mean `{meant}`?" if meant else ""
 
 
