@@ -7,6 +7,7 @@ from math import comb, prod
 
 from msgspec.structs import replace
 
+from dynsolve.algebra.factors import is_never_zero, trig_factors
 from dynsolve.algebra.matrix import Place
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import is_seen
@@ -167,24 +168,31 @@ def _alternatives(forms: SingularForms, found: SingularSet, J: Node) -> Step:
     )
     if not cases:
         return step
-    at_once = ", and all the minors have to be 0 at once" if len(found.minors) > 1 else ""
-    product = f"A product is 0 where one of its factors is{at_once}."
-    one = f"{product} Constant lengths are not 0, so one case is left."
-    several = (
-        "A product is 0 where one of its factors is; each of these cases is enough. "
-        "Constant lengths are not 0."
-    )
     seen = [is_seen([each.expr for each in case], ParameterSigns()) for case in found.alternatives]
     exist = tuple(forms.existence("singular", found.exist, seen))
     return replace(
         step,
         title=_TITLE,
-        why=(one if len(cases) == 1 else several,),
+        why=_of_factors(found),
         result=tuple(map(vanishing, cases)),
         notes=(*exist, *special),
         outcome=paragraph(exist),
         uses=("singular_minors",),
     )
+
+
+def _of_factors(found: SingularSet) -> Prose:
+    """How the cases come from the minors: by the factors of those that are products."""
+    factors = [[factor for factor, times in trig_factors(m) for _ in range(times)] for m in found.minors]
+    fixed = (f for of_minor in factors for f in of_minor if not f.ring.depends_on_coordinates(f))
+    lengths = " Constant lengths are not 0" if any(map(is_never_zero, fixed)) else ""
+    at_once = ", and all the minors have to be 0 at once" if len(found.minors) > 1 else ""
+    if all(len(of_minor) < 2 for of_minor in factors):
+        return ("All the minors have to be 0 at once.",) if at_once else ()
+    product = "A product is 0 where one of its factors is"
+    if len(found.alternatives) > 1:
+        return (f"{product}; each of these cases is enough.", f"{lengths}." if lengths else "")
+    return (f"{product}{at_once}.", f"{lengths}, so one case is left." if lengths else "")
 
 
 def _of_special(forms: SingularForms, found: SingularSet) -> Iterator[Prose]:

@@ -156,3 +156,20 @@ find: [singular]
 """
     (step,) = (step for step in dynsolve.solve(wrist).steps if step.id == "singular_1")
     assert "w₂ = [[0], [0], [sin(q₁) cos(q₂)], [-l cos(q₃)], [0], [0]]" in map(to_unicode, step.result)
+
+
+@pytest.mark.parametrize(
+    ("rows", "said"),
+    [
+        ("[{theta: a*, alpha: -90deg}, {d: b*, alpha: 90deg}, {theta: c*, a: L}]\ntask: [tip.x, tip.y, a+c]",
+         ""),
+        ("[{theta: q1*, a: a}, {theta: q2*, a: b}]\ntask: [tip.x, tip.y]",
+         "A product is 0 where one of its factors is. Constant lengths are not 0, so one case is left."),
+        ("[{theta: q1*, alpha: 90deg}, {theta: q2*, alpha: 90deg}, {d: q3*}]\ntask: [tip.x, tip.y, tip.z]",
+         "A product is 0 where one of its factors is; each of these cases is enough."),
+    ],
+)  # fmt: skip
+def test_products_and_lengths_are_spoken_of_where_there_are_any(rows: str, said: str) -> None:
+    solution = dynsolve.solve(f"gravity: none\ndh: {rows}\nfind: [singular]\n")
+    (step,) = (step for step in solution.steps if step.id == "singular")
+    assert "".join(map(str, step.why)) == said
