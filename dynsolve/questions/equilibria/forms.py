@@ -7,12 +7,12 @@ from functools import cached_property
 from math import gcd, lcm
 
 from dynsolve.algebra.angles import Angle, angle_node
-from dynsolve.algebra.factors import is_positive, ratio
+from dynsolve.algebra.factors import is_positive, ratio, trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import turn_of
-from dynsolve.derivation.existence import discriminant, quadratic_of, square_of
+from dynsolve.derivation.existence import coordinates_in, discriminant, quadratic_of, square_of
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.sets import Alternative
 from dynsolve.derivation.singular.zeros import Condition
@@ -64,7 +64,8 @@ class EquilibriaForms(SetForms):
         return [
             self._angle(one)
             or self._tangent(one)
-            or self._length(one)
+            or self._sine(one)
+            or self._length(one, case)
             or self._square(one)
             or self._quadratic(one)
             or equation(value, Number(0))
@@ -88,12 +89,25 @@ class EquilibriaForms(SetForms):
             angle_node(fixed + Angle(degrees=Fraction(degrees))),
         )
 
-    def _length(self, condition: Condition) -> Node | None:
+    def _sine(self, condition: Condition) -> Node | None:
+        """cos θ = b/a where a cos θ = b, neither depends on coordinates, and a is not 0."""
+        turn = turn_of(condition.expr)
+        ring = condition.expr.ring
+        if turn is None or not turn.is_one_sided or turn.rest.is_zero:
+            return None
+        factor, name = (turn.sine, "sin") if turn.cosine.is_zero else (turn.cosine, "cos")
+        if any(map(ring.depends_on_coordinates, (factor, turn.rest))):
+            return None
+        return self._quotient(Function(name, angle_node(turn.pair.angle, ring.names)), -turn.rest, factor)
+
+    def _length(self, condition: Condition, case: Alternative) -> Node | None:
         """x = b/a where a x = b, and a is a parameter that is not 0; of an angle where b is one, too.
 
-        So also q₂ = n q₁ where no sine stands beside.  Nothing of x = 0.
+        So also q₂ = n q₁ where no sine stands beside: of one that nothing else in the case fixes, if there
+        is one.  Nothing of x = 0.
         """
         ring, expr = condition.expr.ring, condition.expr
+        others = {name for one in case if one is not condition for name in coordinates_in(one.expr)}
         is_linear = all(ring.generators[i].kind == "symbol" for i in expr.used)
         found = []
         for q in self.robot.coordinates:
@@ -106,7 +120,7 @@ class EquilibriaForms(SetForms):
                 and not (factor.is_zero or rest.is_zero or ring.depends_on_coordinates(factor))
             ):
                 found.append((q.name, rest, factor))
-        ways = sorted(found, key=lambda one: not one[2].is_number)
+        ways = sorted(found, key=lambda one: (one[0] in others, not one[2].is_number))
         return next((self._quotient(Symbol(name), -rest, factor) for name, rest, factor in ways), None)
 
     def _square(self, condition: Condition) -> Node | None:
@@ -175,7 +189,7 @@ class EquilibriaForms(SetForms):
             above, below = (part * Expr(ring, inverted) ** max(highest, 0) for part in (above, below))
         signs = assumed_signs(self.robot, Transfer(self.robot.ring, ring))
         sign = next((sign for sign in (1, -1) if signs.is_positive(below * sign)), 0)
-        if not sign and any(below == one * ratio(below, one) for one in self._nonzero):
+        if not sign and all(signs.is_positive(one) or one in self._nonzero for one, _ in trig_factors(below)):
             numbers = [*above.poly.coeffs(), *below.poly.coeffs()]
             sign = 1 if 2 * sum(number > 0 for number in numbers) >= len(numbers) else -1
         common = above.poly.gcd(below.poly)
@@ -190,7 +204,7 @@ class EquilibriaForms(SetForms):
             return equation(letter, upper)
         shortest: Node = Quotient(upper, lower)
         apart, rest = (Expr(ring, part) for part in divmod(above.poly, below.poly))
-        if not (apart.is_zero or ring.depends_on_coordinates(above)):
+        if not (apart.is_zero or len(above) == 1 or ring.depends_on_coordinates(above)):
             shortest = min(shortest, total([form(apart), self._over(rest, below)]), key=cost)
         return equation(letter, shortest)
 
@@ -212,9 +226,10 @@ class EquilibriaForms(SetForms):
 
     @cached_property
     def _nonzero(self) -> frozenset[Expr]:
-        """What is told to be other than 0."""
+        """The factors of what is told to be other than 0."""
         found = self.values["equilibria"]
-        return frozenset() if isinstance(found, Skipped) else frozenset(one.factor for one in found.special)
+        special = () if isinstance(found, Skipped) else found.special
+        return frozenset(factor for one in special for factor, _ in trig_factors(one.factor))
 
     def special_exceptions(self, case: SpecialCase) -> tuple[tuple[Node, ...], ...]:
         """The sets that are no equilibria for special parameters."""

@@ -119,7 +119,7 @@ model:
 find: [equilibria]
 """
     told = read(disk)
-    assert "m e sin(φ + 20°) + R (M + m) sin(20°) = 0 Note: This has solutions" in told
+    assert "sin(φ + 20°) = -R (M + m) sin(20°)/(m e) Note: This has solutions" in told
     assert "stable where cos(φ + 20°) < 0, not stable where cos(φ + 20°) > 0." in told
     assert "solutions where m e - R (M + m) sin(20°) ≥ 0. Where the matrix" in told
 
@@ -1435,14 +1435,14 @@ find: [equilibria, lambda]
 
 
 def test_conditions_of_a_model_in_numbers_are_exact() -> None:
-    """sin(a) (1/3 - cos(a)) = 0: 1 - 3 cos a, and not 0.333333 - cos a."""
+    """sin(a) (1/3 - cos(a)) = 0: cos a = 1/3, and not 0.333333."""
     ring = """
 gravity: none
 model: {coordinates: {a: revolute}, bodies: [{mass: 2, at: [0, 0, 0]}]}
 springs: [{energy: "-cos(a)/3 + cos(a)^2/2"}]
 find: [equilibria]
 """
-    assert "3cos(a) - 1 = 0" in " ".join(map(to_unicode, told_of(ring).result))
+    assert "cos(a) = ⅓" in " ".join(map(to_unicode, told_of(ring).result))
 
 
 MASS = """
@@ -2003,3 +2003,36 @@ find: [equilibria]
     told = read(swing)
     assert "In case 1 at q₃ = 0: stable where W² (a + b) > g. In case 1" in told
     assert "In case 1 at q₃ = 180°, where W⁴ (a - b)² > g²: not stable." in told
+
+
+LINEAR = {
+    "what is told not to be 0 may stand below": (
+        "dh: [{theta: phi*, alpha: beta}, {d: r*}]\n"
+        "masses: [{mass: m, link: 2, center: origin}]\nsteady: {phi: W}\n",
+        "r = g cos(β)/(W² sin²(β))",
+    ),
+    "one fraction, not k b/(k - m W²) - b": (
+        "gravity: none\nmodel:\n  coordinates: {phi: revolute, x: prismatic}\n"
+        "  bodies: [{mass: m, at: [(b + x)*cos(phi), (b + x)*sin(phi), 0]}]\n"
+        "springs: [{stiffness: k, of: x}]\nsteady: {phi: W}\n",
+        "x = m b W²/(k - m W²)",
+    ),
+    "not for what another equation says": (
+        "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: a}, {theta: q2*, a: b}, {theta: q3*, a: c}]\n"
+        "masses: [{mass: m, link: 3}]\nconstraints: [q1 + q2 + q3]\n",
+        "cos(q₁) = 0, q₃ = -q₁ - q₂ and sin(q₂) = 0",
+    ),
+    "a sine": (
+        "gravity: [0, -g, 0]\nmodel:\n  coordinates: {theta: revolute}\n"
+        "  bodies: [{mass: m, at: [l*sin(theta), -l*cos(theta), 0]}]\n"
+        'springs: [{energy: "-T*theta"}]\n',
+        "sin(θ) = T/(m g l)",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LINEAR)
+def test_an_equation_is_solved_for_what_is_linear_in_it(name: str) -> None:
+    text, solved_for = LINEAR[name]
+    (result,) = told_of(f"{text}find: [equilibria]\n").result
+    assert to_unicode(result) == solved_for
