@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import chain, combinations
+from math import prod
 
 from msgspec import Struct
 
-from dynsolve.algebra.factors import is_never_zero
+from dynsolve.algebra.factors import is_never_zero, trig_factors, trig_quotient
 from dynsolve.algebra.linear_systems import rank_parts
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, minors, work
 from dynsolve.algebra.ring import Expr
@@ -53,10 +54,14 @@ def of_rates(forms: SetForms) -> Holding:
         return Holding()
     if work(squared(J)) > MOST_PRODUCTS:
         return Holding(rank)
-    if any(map(is_never_zero, minors(J, rank))):
+    found = list(minors(J, rank))
+    if any(map(is_never_zero, found)):
         return Holding()
-    if J.shape == (rank, rank):
-        is_full = forms.comparison(may_vanish(determinant(J)), "≠")
+    shared = prod((factor**times for factor, times in _shared_factors(found)), start=J.ring.one)
+    if J.shape == (rank, rank) or _are_never_zero([trig_quotient(minor, shared) for minor in found]):
+        if may_vanish(shared) == J.ring.one:
+            return Holding()
+        is_full = forms.comparison(may_vanish(shared), "≠")
         return Holding(rank, is_full if is_small(is_full) else None)
     is_fixed = any(map(is_never_zero, chain(_sizes(J, rank), _sizes(J.T, rank))))
     return Holding(0 if is_fixed else rank)
@@ -70,6 +75,21 @@ def of_space(forms: SetForms, name: str) -> Holding:
     value = dependent_where(vectors)
     apart = Words("these vectors are independent") if value is None else forms.vanishing(value)
     return found if apart == ONE else Holding(found.rank, found.is_full, apart)
+
+
+def _shared_factors(values: Sequence[Expr]) -> Iterator[tuple[Expr, int]]:
+    """The factors that all of some values have, each as often as all have it."""
+    first, *others = (dict(trig_factors(value)) for value in values)
+    for factor, times in first.items():
+        if often := min([times, *(other.get(factor, 0) for other in others)]):
+            yield factor, often
+
+
+def _are_never_zero(values: Sequence[Expr | None]) -> bool:
+    """Whether it is seen that some values are nowhere all 0."""
+    known = [value for value in values if value is not None]
+    squares = [value * value for value in known if len(value) ** 2 <= MOST_PRODUCTS]
+    return any(map(is_never_zero, [*known, sum(squares[1:], start=squares[0])] if squares else known))
 
 
 def _sizes(J: Matrix, rank: int) -> Iterator[Expr]:

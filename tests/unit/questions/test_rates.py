@@ -159,6 +159,20 @@ def test_it_is_said_for_which_configurations_and_velocities(state: str, velocity
     assert ("no motion is lost. All this holds" in shown) == ("All this" in words)
 
 
+def test_the_rank_is_full_where_no_factor_that_all_minors_share_is_0() -> None:
+    arm = "gravity: none\ndh: [{theta: q1*, a: a}, {theta: q2* - 90deg, alpha: -90deg}, {d: d3*}]\n"
+    shown = report(dynsolve.solve(f"{arm}state: {{q2: 90deg}}\nfind: [nullspace]\n"), Format.TEXT).decode()
+    assert "All this holds where d₃ ≠ 0." in " ".join(shown.split())
+    everywhere = report(dynsolve.solve(f"{THREE}find: [nullspace]\n"), Format.TEXT).decode()
+    assert "All this holds where the rank of 𝐉_r is 2." in " ".join(everywhere.split())
+
+
+def test_a_state_that_is_reached_is_in_degrees() -> None:
+    arm = "gravity: none\ndh: [{theta: q1*, a: 1}, {theta: q2*, a: 1}]\n"
+    target = "reach: [1, 1]\nlimits: {q2: [0, 180deg]}\nstate: reach\nvelocity: [1, 0]\nfind: [qd]\n"
+    assert "The state is q₁ = 0, q₂ = 90°." in report(dynsolve.solve(arm + target), Format.TEXT).decode()
+
+
 @pytest.mark.parametrize(
     ("arm", "told", "conditions"),
     [
