@@ -32,7 +32,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, name_alone
-from dynsolve.algebra.factors import is_positive
+from dynsolve.algebra.factors import is_positive, trig_quotient
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound, independent
 from dynsolve.algebra.linear_systems import part, rank_parts
@@ -418,7 +418,7 @@ class Curvature(Struct, frozen=True):
             return Point(values, Stability.UNDECIDED, neutral, is_open=not _never_falls(minor, rest, signs))
         if moves and max(map(len, (*left, *nonzero))) > MOST_SHOWN_TERMS:
             return Point(values, Stability.UNDECIDED, neutral, is_open=True)
-        conditions = tuple(map(Bound, dict.fromkeys(left)))
+        conditions = tuple(map(Bound, _simplest(left, signs)))
         if not moves:
             conditions = independent([Bound(sign) for sign in _least(left, signs)], signs.assumed)
         falls = bool(conditions) and not self.may_be_held
@@ -429,6 +429,26 @@ class Curvature(Struct, frozen=True):
             told = conditions if falls else ()  # along what is neutral it comes to where they do not hold
             return Point(values, Stability.UNDECIDED, neutral, told, (), falls, is_open=True)
         return Point(values, Stability.UNDECIDED, neutral, conditions, apart, falls)
+
+
+def _simplest(left: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
+    """What is to be positive: x and y where a x + b y and x y are, and nothing that is another and more."""
+    found = list(dict.fromkeys(left))
+    if len(found) == 2 and len(factors := [*signs.open_factors(found[1])]) == 2:
+        mixed, product = found
+        signed = permutations([*factors, *(-factor for factor in factors)], 2)
+        pairs = ([x, y] for x, y in signed if _are_positive_with(x, y, mixed, product, signs))
+        found = next(pairs, found)
+    return [
+        one for one in found if not any(signs.is_positive(one - other) for other in found if other != one)
+    ]
+
+
+def _are_positive_with(x: Expr, y: Expr, mixed: Expr, product: Expr, signs: ParameterSigns) -> bool:
+    """Whether a x + b y and x y are positive where x and y are, and nowhere else: with a, b > 0."""
+    a, rest = (Expr(x.ring, part) for part in divmod(mixed.poly, x.poly))
+    parts = (a, trig_quotient(rest, y), trig_quotient(product, x * y))
+    return all(part is not None and signs.is_positive(part) for part in parts)
 
 
 def _first_derivative(value: Expr, order: int, slope: Callable[[Expr], Expr], here: Here) -> Higher | None:

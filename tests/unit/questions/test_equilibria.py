@@ -2036,3 +2036,23 @@ def test_an_equation_is_solved_for_what_is_linear_in_it(name: str) -> None:
     text, solved_for = LINEAR[name]
     (result,) = told_of(f"{text}find: [equilibria]\n").result
     assert to_unicode(result) == solved_for
+
+
+def test_two_signs_are_told_by_themselves_and_not_by_a_sum_and_a_product() -> None:
+    """By hand, with H = [[X + Y, Y], [Y, Y]]: X > 0 and Y > 0, which is s₁ < 0 and s₁₂ < 0."""
+    three = (
+        "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: a}, {theta: q2*, a: b}, {theta: q3*, a: c}]\n"
+        "masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]\n"
+        "inputs: given\npassive: [q3]\nfind: [equilibria]\n"
+    )
+    assert "stable where s₁₂ < 0 and s₁ < 0, not stable where one" in read(three)
+
+
+def test_a_condition_that_is_another_one_and_more_is_not_told() -> None:
+    """m g (a + b c₂) + k > 0 where k + m g b c₂ > 0"""
+    held = (
+        "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: a}, {theta: q2*, a: b}]\n"
+        "masses: [{mass: m, link: 2}]\nsprings: [{stiffness: k, of: q1 + q2, rest: 90deg}]\n"
+        "find: [equilibria]\n"
+    )
+    assert "at q₁ = -90°: stable where k + m g b c₂ > 0, not stable where" in read(held)
