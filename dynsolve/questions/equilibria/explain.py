@@ -517,7 +517,7 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
     told = [
         (point, _place(shown, point, case, shown.relations(one, case)))
         for one, case, points in zip(found.alternatives, shown.equilibria, found.points, strict=True)
-        for point in points
+        for point in _widest(points)
     ]
     more: Prose = ()
     lines: tuple[Line, ...] = ()
@@ -549,6 +549,17 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
         concluding=tuple(part for sentence in sentences for part in (*sentence, " ")),
         uses=("equilibria",),
     )
+
+
+def _widest(points: Sequence[Point]) -> list[Point]:
+    """Those of one case without what is told of more poses, too: q₁ = 90°, q₂ = 0 beside q₁ = 90° alone."""
+    return [
+        one
+        for one in points
+        if not any(
+            {*other.values} < {*one.values} and replace(one, values=other.values) == other for other in points
+        )
+    ]
 
 
 _ENERGY = (

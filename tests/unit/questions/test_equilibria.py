@@ -2055,4 +2055,7 @@ def test_a_condition_that_is_another_one_and_more_is_not_told() -> None:
         "masses: [{mass: m, link: 2}]\nsprings: [{stiffness: k, of: q1 + q2, rest: 90deg}]\n"
         "find: [equilibria]\n"
     )
-    assert "at q₁ = -90°: stable where k + m g b c₂ > 0, not stable where" in read(held)
+    told = read(held)
+    assert "at q₁ = -90°: stable where k + m g b c₂ > 0, not stable where" in told
+    assert "In equilibrium at q₁ = 90°: not stable." in told
+    assert "At q₁ = 90°, q₂ = 0: not stable." not in told  # the same of one of these points
