@@ -428,7 +428,7 @@ def read_off(context: Context, link: int, point: algebra.Matrix) -> Joint | None
 def how_read_off(context: Context, joint: Joint) -> Prose:
     """z₀ × (u₁, u₂, u₃)ᵀ = (-u₂, u₁, 0)ᵀ, by which a column of this joint is a look."""
     i = joint_frame(context.robot, joint)
-    u = [letters.any_vector(context.robot, Number(k)) for k in (1, 2, 3)]
+    u = [letters.any_vector(Number(k)) for k in (1, 2, 3)]
     turned: list[Node] = []
     for row in algebra.skew(axis(context.values[f"H{i}"])).rows:
         signed = [(sign.number, e) for sign, e in zip(row, u, strict=True) if not sign.is_zero]

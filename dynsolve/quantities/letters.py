@@ -219,10 +219,9 @@ def height(index: Node) -> Letter:
     return Letter("eta", index)
 
 
-def any_vector(robot: Robot, index: Node) -> Letter:
-    """u_i, an entry of any vector; w_i or v_i in a problem that has an u, with or without an index."""
-    taken = {name.rstrip("0123456789") for name in names_taken(robot)}
-    return Letter(next((letter for letter in "uwv" if letter not in taken), "u"), index)
+def any_vector(index: Node) -> Letter:
+    """u_i, an entry of any vector."""
+    return Letter("u", index)
 
 
 def tensor(robot: Robot, body: Body) -> Letter:
