@@ -6,9 +6,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from msgspec import Struct
 
-from dynsolve.algebra.compact.proof import plain_form
+from dynsolve.algebra.compact.proof import nested_form
 from dynsolve.algebra.fraction import RationalExpr
-from dynsolve.algebra.linear_systems import fraction_of
+from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of
+from dynsolve.algebra.matrix import Matrix as AnyMatrix
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Derivation, known
 from dynsolve.errors import VerificationError
@@ -37,14 +38,17 @@ class Held(Struct, frozen=True):
 
     def _form(self, name: str) -> Node:
         value = known(self.values[name])
-        if value is self.values[name]:
-            return self.forms(name)
-        return Matrix(tuple(tuple(map(_plain, row)) for row in value.rows))
+        return self.forms(name) if value is self.values[name] else as_derived(value)
 
 
-def _plain(entry: Expr | RationalExpr) -> Node:
-    one = fraction_of(entry)
-    return Quotient(plain_form(one.numerator), plain_form(one.denominator))
+def as_derived(value: AnyMatrix | FractionMatrix) -> Matrix:
+    """A result that is too long to be printed, its terms as they come."""
+
+    def entry(one: Expr | RationalExpr) -> Node:
+        found = fraction_of(one)
+        return Quotient(nested_form(found.numerator), nested_form(found.denominator))
+
+    return Matrix(tuple(tuple(map(entry, row)) for row in value.rows))
 
 
 Rows = Sequence[Sequence[float]]

@@ -36,7 +36,7 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
 
     Where a check fails, what is asked of that question is left out, with a warning; all others stand.
     """
-    left_out = {name for name, _ in skipped(robot, values) if isinstance(known(values.get(name)), Skipped)}
+    left_out = {name for name, _ in skipped(robot, values)}
     held = Held(robot, values, forms, values.leading_to(robot.questions.asked) - left_out, states)
     asked = asked_stages(robot.questions)
     wrong: dict[str, Skipped] = {}
@@ -61,7 +61,7 @@ def _stage_of(robot: Robot, name: str) -> Stage | None:
 def skipped(robot: Robot, values: Derivation) -> Iterator[tuple[str, str]]:
     """The names of what is asked for and was not worked out, with the reasons."""
     for name in sorted(robot.questions.asked & values.rules.keys()):
-        value = values[name]
+        value = known(values[name])
         if isinstance(value, Skipped):
             yield name, value.why
         elif name == "inverse" and robot.questions.target is not None:

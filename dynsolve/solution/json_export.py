@@ -18,6 +18,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from dynsolve.derivation.graph import Skipped, known
 from dynsolve.document import Inline, Prose, Reference, Verbatim
 from dynsolve.document.books import by_itself
 from dynsolve.explain.step import Line, Step
@@ -34,6 +35,7 @@ from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.quantities.owners import derived_stages
 from dynsolve.quantities.stages import ASKED_FOR, Stage
 from dynsolve.questions.export import Export
+from dynsolve.questions.held import as_derived
 from dynsolve.robot.model import Robot
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.numbers import given
@@ -161,9 +163,9 @@ class _Exporter:
     def asked(self) -> Iterator[Quantity]:
         """What is exported only where it is asked for, under its own name."""
         problem = self.solution.problem
-        known, asked = quantities(self.solution.robot), self.solution.robot.questions.asked
-        for name, quantity in known.items():
-            whole = known.get(quantity.whole)
+        of_robot, asked = quantities(self.solution.robot), self.solution.robot.questions.asked
+        for name, quantity in of_robot.items():
+            whole = of_robot.get(quantity.whole)
             is_told = quantity.family.json or (whole is not None and whole.family.json)
             if name in asked or (name in problem.find and not is_told and name != families.DH.name):
                 yield quantity
@@ -174,7 +176,10 @@ class _Exporter:
             return quantity.family.stage.part("export").value(self.export, quantity.rule)
         form = self.forms(quantity.form)
         if isinstance(form, Words):  # in brackets, as it stands in a formula
-            return {"skipped": form.text[1:-1]}
+            value = known(self.export.values[quantity.rule])
+            if isinstance(value, Skipped):
+                return {"skipped": form.text[1:-1]}
+            form = as_derived(value)
         if not isinstance(form, Matrix):
             return self.python.text(form)
         rows = [[self.python.text(entry) for entry in row] for row in form.rows]

@@ -9,6 +9,7 @@ evaluated in floating point, at values at which everything in the ring is positi
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from math import pi
 from random import Random
@@ -151,6 +152,38 @@ def plain_form(expr: Expr) -> Node:
         ]
         terms.append(times(Fraction(int(factor.p), int(factor.q)), parts))
     return total(terms)
+
+
+def nested_form(expr: Expr) -> Node:
+    """The terms generator by generator, what has one power of it in brackets: long values, for programs.
+
+    >>> from dynsolve.algebra.ring_values import build_ring
+    >>> from dynsolve.notation.python import to_python
+    >>> ring = build_ring([("q1", "revolute")], [Symbol("l"), Symbol("m")], [])
+    >>> l, m = ring.symbol("l"), ring.symbol("m")
+    >>> to_python(nested_form(m * l * 2 + m * m * l + m))
+    'l*(m**2 + 2*m) + m'
+    """
+    ring = expr.ring
+    bases = [
+        plain_form(Expr(ring, ring.inverses[g.index])) if g.kind == "inverse" else node_of(g, ring)
+        for g in ring.generators
+    ]
+    signs = [-1 if g.kind == "inverse" else 1 for g in ring.generators]
+
+    def form(terms: Mapping[tuple[int, ...], Fraction], k: int) -> Node:
+        if k == len(bases):
+            (factor,) = terms.values()
+            return times(factor, [])
+        by_power: dict[int, dict[tuple[int, ...], Fraction]] = {}
+        for exponents, factor in terms.items():
+            by_power.setdefault(int(exponents[k]), {})[exponents] = factor
+        parts = {power: form(some, k + 1) for power, some in by_power.items()}
+        return total([times(1, [(bases[k], signs[k] * e), (part, 1)] if e else [(part, 1)])
+                      for e, part in parts.items()])  # fmt: skip
+
+    found = {exponents: Fraction(int(f.p), int(f.q)) for exponents, f in expr.poly.to_dict().items()}
+    return form(found, 0)
 
 
 def node_of(g: Generator, ring: Ring) -> Node:
