@@ -18,7 +18,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from dynsolve.derivation.graph import Skipped, known
+from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Inline, Prose, Reference, Verbatim
 from dynsolve.document.books import by_itself
 from dynsolve.explain.step import Line, Step
@@ -176,10 +176,10 @@ class _Exporter:
             return quantity.family.stage.part("export").value(self.export, quantity.rule)
         form = self.forms(quantity.form)
         if isinstance(form, Words):  # in brackets, as it stands in a formula
-            value = known(self.export.values[quantity.rule])
-            if isinstance(value, Skipped):
+            value = self.export.values[quantity.rule]
+            if not isinstance(value, Skipped) or value.value is None:
                 return {"skipped": form.text[1:-1]}
-            form = as_derived(value)
+            form = as_derived(value.value)
         if not isinstance(form, Matrix):
             return self.python.text(form)
         rows = [[self.python.text(entry) for entry in row] for row in form.rows]
