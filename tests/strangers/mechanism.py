@@ -275,13 +275,15 @@ class Mechanism:
     def equilibria(self, told: tuple[Node, ...], seed: int = 0) -> Iterator[tuple[int, Point | None]]:
         """Of each alternative, by its number, a state in which coordinates are what equations say."""
         here = self.posed(told, seed)
-        given = names_of(tuple(part for part in walk(*told) if isinstance(part, tree.Symbol)))
-        free = tuple(q for q in self.coordinates if q not in given and q not in self.steady)
+        at = [part for part in walk(*told) if isinstance(part, tree.Relation)]
+        free = tuple(q for q in self.coordinates if q not in self.steady)
         for number, codes in enumerate(self._equilibria, 1):
 
             def off(p: Point, codes: list[CodeType] = codes) -> Any:
                 known = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "pi": np.pi}
-                return np.array([eval(code, dict(known), dict(p.names)) for code in codes], dtype=float)  # noqa: S307
+                zeros = [eval(code, dict(known), dict(p.names)) for code in codes]  # noqa: S307
+                zeros += [self.value(one.parts[-1], p) - self.value(one.parts[0], p) for one in at]
+                return np.array(zeros, dtype=float)
 
             point = self.solved(off, free, seed, here) if free and codes else here
             yield number, point if point is not None and near(off(point), 0) else None
