@@ -395,14 +395,15 @@ class Judge:
 
     def _own_names(self, answers: dict[str, JudgedAnswer]) -> Iterator[str]:
         """What is wrong as an answer, unasked, and makes others right: an abbreviation, m_12 = m_2 + m_L."""
-        uses = {
-            other: {name for chain in chains for value in chain for name in value.answer.references}
-            for other, chains in self.hand_in.chains.items()
-        }
         for name, answer in answers.items():
-            made = [answers[other] for other, used in uses.items() if name in used]
-            is_right = bool(made) and all(one.verdict is Verdict.CORRECT for one in made)
-            if answer.verdict is Verdict.WRONG and name not in self._asked and is_right:
+            if answer.verdict is not Verdict.WRONG or name in self._asked:
+                continue
+            made = [
+                answers[other]
+                for other, chains in self.hand_in.chains.items()
+                if any(name in value.answer.references for chain in chains for value in chain)
+            ]
+            if made and all(one.verdict is Verdict.CORRECT for one in made):
                 yield name
 
     def _unread(self, answers: dict[str, JudgedAnswer]) -> dict[str, str]:

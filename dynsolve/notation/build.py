@@ -179,8 +179,9 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
             above.append(power(inner, exponent))
         else:
             below.append(power(inner, -exponent))
-    for line, exponent in ((above, 1), (below, -1)):
-        coefficient = coefficient * Fraction(_one_root(line)) ** exponent
+    coefficient = coefficient * _one_root(above)
+    if (front := _one_root(below)) != 1:
+        coefficient = coefficient * Fraction(1, front)
     if not coefficient:
         return ZERO
     if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
@@ -205,18 +206,17 @@ def _one_root(factors: list[Node]) -> int:
     >>> to_unicode(times(1, [(Function("sqrt", Number(root)), 1) for root in (2, 6)]))
     '2√3'
     """
+    roots = [one for one in factors if isinstance(one, Function) and one.name == "sqrt"]
+    numbers = [root.argument for root in roots if isinstance(root.argument, Number) and root.argument.q == 1]
+    if len(numbers) < 2:
+        return 1
     front = under = 1
-    roots = []
-    for factor in factors:
-        match factor:
-            case Function("sqrt", Number(p, 1)):
-                common = gcd(p, under)
-                front, under = front * common, p * under // common**2
-                roots.append(factor)
-    if len(roots) > 1:
-        factors[:] = [one for one in factors if one not in roots]
-        if under != 1:
-            factors.insert(0, Function("sqrt", Number(under)))
+    for number in numbers:
+        common = gcd(number.p, under)
+        front, under = front * common, number.p * under // common**2
+    factors[:] = [one for one in factors if not (one in roots and one.argument in numbers)]
+    if under != 1:
+        factors.insert(0, Function("sqrt", Number(under)))
     return front
 
 

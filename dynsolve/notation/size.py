@@ -122,6 +122,11 @@ def _raised(node: Power, terms: _Counts, degrees: _Counts, most: Size) -> tuple[
     return (comb(terms[0] + count - 1, count) if count else 1), count * degrees[0]
 
 
+def _applied(node: Function, terms: _Counts, degrees: _Counts, most: Size) -> tuple[int, int]:
+    """One term; but the square of a root has those that are under it."""
+    return (terms[0], degrees[0]) if node.name == "sqrt" else (1, 1)
+
+
 _RULES: Mapping[type[Node], Callable[[Any, _Counts, _Counts, Size], tuple[int, int]]] = {
     Sum: _added,
     Product: _multiplied,
@@ -130,7 +135,7 @@ _RULES: Mapping[type[Node], Callable[[Any, _Counts, _Counts, Size], tuple[int, i
     Negative: _beside,
     Parenthesized: _beside,
     Arguments: _added,
-    Function: lambda *_: (1, 1),
+    Function: _applied,
     Matrix: _beside,
 }
 """How the terms and the degree of a node come from those of its parts; every other node is a leaf."""

@@ -14,7 +14,8 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Derivation, known
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
-from dynsolve.notation.tree import Matrix, Node, Quotient
+from dynsolve.notation.build import times
+from dynsolve.notation.tree import Matrix, Node
 from dynsolve.robot.model import Robot
 
 
@@ -46,7 +47,7 @@ def as_derived(value: AnyMatrix | FractionMatrix) -> Matrix:
 
     def entry(one: Expr | RationalExpr) -> Node:
         found = fraction_of(one)
-        return Quotient(nested_form(found.numerator), nested_form(found.denominator))
+        return times(1, [(nested_form(found.numerator), 1), (nested_form(found.denominator), -1)])
 
     return Matrix(tuple(tuple(map(entry, row)) for row in value.rows))
 

@@ -265,10 +265,9 @@ class Definiteness(Struct, frozen=True):
 
     `minors` are its leading ones; `conditions` what the parameters must satisfy beyond what is
     assumed, one inequality of each, or if not `is_exact` what is enough; `order` (from 0) that of the rows
-    and columns in them.  Of
-    a matrix that can be none `refusal` says why, `place` the entry (from 0), `extreme` where which minor
-    (its `size`) is not positive, or if not `is_whole` what it is over those before it; or `excluding` are
-    conditions that exclude each other.  `moves_with_base` is a remark.
+    and columns in them.  Of a matrix that can be none `refusal` says why, `place` the entry (from 0),
+    `extreme` where which minor (its `size`) is not positive, or if not `is_whole` what it is over those
+    before it; or `excluding` are conditions that exclude each other.  `moves_with_base` is a remark.
     """
 
     name: str

@@ -135,7 +135,7 @@ class Point(Struct, frozen=True):
     stand in conditions where their values are not known; `is_open` says that it is not told where it is
     stable.  All this is so
     where the case is there and none of its bounds, `inside`, is an equality.  `along` is what constraints
-    leaves of the second derivatives, and `higher` are those looked at where some of these are 0.  At a
+    leave of the second derivatives, and `higher` are those looked at where some of these are 0.  At a
     point that `is_crossing` what constraints leave is several smooth sets.
     """
 

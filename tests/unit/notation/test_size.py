@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 import sympy
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 
 from dynsolve.notation.size import Size, TooLargeError, size
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Matrix, Node, Number, Power, Product, Sum, Symbol
+from dynsolve.notation.tree import Function, Matrix, Node, Number, Power, Product, Sum, Symbol
 from dynsolve.solution.numeric import to_sympy
 from tests.unit.notation.trees import rational_trees
 
@@ -72,6 +72,7 @@ def test_shared_parts_count_wherever_they_stand_and_are_measured_once() -> None:
         size(node, MOST)
 
 
+@example(Power(Function("sqrt", Sum((A, B))), Number(2)))
 @settings(max_examples=60, deadline=None)
 @given(rational_trees)
 def test_multiplied_out_there_are_no_more_terms_than_said(node: Node) -> None:
