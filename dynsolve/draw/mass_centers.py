@@ -27,6 +27,7 @@ from dynsolve.draw.skeleton import (
     MassCenter,
     RobotNumbers,
     Skeleton,
+    Step,
     finite,
     is_open,
     near_and_far,
@@ -75,6 +76,9 @@ _ALL_UNEVEN = tuple(
     for signs in product((1.0, -1.0), repeat=3)
     for parts in permutations(_UNEVEN)
 )
+
+_MEASURED = 2
+"""Up to this number of letters the steps to a mass centre are shown."""
 
 Clear = Callable[[MassCenter, Sequence[MassCenter]], float]
 
@@ -152,14 +156,16 @@ def _mass(
     if written in exact:
         return MassCenter(body.name, exact[written], body.is_point, body.link)
     ends = (into(frame.axes, subtract(end, frame.origin)) for end in (near, far))
-    center, from_, rate, chosen = _local_center(robot, numbers, body, free, share, uneven, *ends)
-    place = add(frame.origin, applied(frame.axes, center))
+    center, local, chosen = _local_center(robot, numbers, body, free, share, uneven, *ends)
+
+    def in_space(point: Vector) -> Vector:
+        return add(frame.origin, applied(frame.axes, point))
+
+    place = in_space(center)
+    steps = tuple(replace(step, start=in_space(step.start), end=in_space(step.end)) for step in local)
     if not free and (number := _number(robot, numbers, body)):
-        from_end = near if _is_from_near(body) else frame.origin
-        return MassCenter(body.name, place, body.is_point, body.link, from_end, rate=number)
-    start = None if from_ is None else add(frame.origin, applied(frame.axes, from_))
-    symbol = free[0] if start else ""
-    return MassCenter(body.name, place, body.is_point, body.link, start, symbol, rate, chosen)
+        steps = (Step(near if _is_from_near(body) else frame.origin, place, number),)
+    return MassCenter(body.name, place, body.is_point, body.link, steps, chosen)
 
 
 def _local_center(
@@ -171,10 +177,10 @@ def _local_center(
     uneven: Sequence[float],
     near: Vector,
     far: Vector,
-) -> tuple[Vector, Vector | None, float, tuple[tuple[str, float], ...]]:
-    """The centre in its frame; the origin of its only free symbol and its rate; the values of all of them."""
+) -> tuple[Vector, tuple[Step, ...], tuple[tuple[str, float], ...]]:
+    """The centre in its frame; the straight steps of its free symbols, one after the other; their values."""
     values = dict(numbers.values) | dict.fromkeys(free, 0.0)
-    rate = 0.0
+    steps: list[Step] = []
 
     def center(**changed: float) -> Vector:
         state = values | changed
@@ -190,20 +196,20 @@ def _local_center(
     elif distance(near, far) < NEAR:
         usual = _PAST_AXIS if slides and body.uniform_shape is None else _ON_AXIS
     try:
-        start = center()
+        found = center()
         for name, part in zip(free, cycle(uneven)):
-            so_far = center()
+            so_far = found
             step = subtract(center(**{name: 1.0}), so_far)
             twice = subtract(center(**{name: 2.0}), so_far)
-            straight = distance(twice, scale(step, 2.0)) < NEAR
-            rate = length(step) * numbers.unit if straight else 0.0
             amount = _best(step, subtract(middle, so_far), distance(near, far), usual, len(free), part)
             values[name] = share * amount
-        found = center()
+            found = center()
+            is_straight = distance(twice, scale(step, 2.0)) < NEAR and distance(so_far, found) > NEAR
+            if is_straight and len(free) <= _MEASURED:
+                steps.append(Step(so_far, found, length(step) * numbers.unit, name))
     except (ValueError, ZeroDivisionError, OverflowError):
-        return middle, None, 0.0, ()
-    measured = len(free) == 1 and rate > NEAR and distance(start, found) > NEAR
-    return found, start if measured else None, rate, tuple((name, values[name]) for name in free)
+        return middle, (), ()
+    return found, tuple(steps), tuple((name, values[name]) for name in free)
 
 
 def _best(direction: Vector, wanted: Vector, size: float, usual: float, symbols: int, uneven: float) -> float:

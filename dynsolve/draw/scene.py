@@ -281,16 +281,14 @@ def as_drawn(problem: Problem, values: RobotNumbers) -> list[float] | None:
 
 
 def _center_lengths(pose: Pose) -> list[Length]:
-    """The distances of mass centres that are given by a number, one symbol, or a simple part of one."""
+    """The distances that lead to mass centres, each a number, one symbol, or a simple part of one."""
     found = []
-    for mass in pose.skeleton.masses:
-        if mass.from_ is None:
-            continue
-        rate = Fraction(mass.rate).limit_denominator(12 if mass.symbol else _FINEST)
-        if abs(rate - mass.rate) < NEAR:
+    for step in (step for mass in pose.skeleton.masses for step in mass.steps):
+        rate = Fraction(step.rate).limit_denominator(12 if step.symbol else _FINEST)
+        if abs(rate - step.rate) < NEAR:
             number = Number(rate.numerator, rate.denominator)
-            node = _part(Symbol(mass.symbol), rate) if mass.symbol else number
-            found.append(Length(mass.from_, mass.center, node, optional=True))
+            node = _part(Symbol(step.symbol), rate) if step.symbol else number
+            found.append(Length(step.start, step.end, node, optional=True))
     return found
 
 

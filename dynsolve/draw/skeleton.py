@@ -297,22 +297,23 @@ class Leg(Struct, frozen=True):
         return self.start if length(beside) < NEAR else self.end
 
 
-class MassCenter(Struct, frozen=True):
-    """A mass centre.
+class Step(Struct, frozen=True):
+    """A straight way from one point to another: `rate` times a symbol, or the number itself without one."""
 
-    `from_` is where its one free `symbol` is measured from, if it has just one;
-    `rate` is how far the centre moves as that grows by 1, and the distance itself where that is a
-    number, without a symbol.  `chosen` are the values that its
-    free symbols are drawn with.
-    """
+    start: Vector
+    end: Vector
+    rate: float
+    symbol: str = ""
+
+
+class MassCenter(Struct, frozen=True):
+    """A mass centre, the steps that lead to it, and the values that its free symbols are drawn with."""
 
     name: str
     center: Vector
     is_point: bool
     link: int
-    from_: Vector | None = None
-    symbol: str = ""
-    rate: float = 1.0
+    steps: tuple[Step, ...] = ()
     chosen: tuple[tuple[str, float], ...] = ()
 
 

@@ -196,6 +196,12 @@ def test_a_number_along_one_axis_is_a_distance(center: str, said: str) -> None:
     assert [name for name in names(drawn_text(text), "length") if name != "a₁"] == ([said] if said else [])
 
 
+def test_a_letter_of_a_mass_centre_beside_another_has_its_length() -> None:
+    arm = "dh: [{theta: q* + 90deg, a: w, alpha: 90deg}, {d: rho*}]\n"
+    masses = "masses: [{mass: m1, link: 1, center: [-w/2, 0, 0]}, {mass: m2, link: 2, center: [0, u, -v]}]\n"
+    assert "v" in names(drawn_text(f"gravity: [0, -g, 0]\n{arm}{masses}"), "length")
+
+
 @pytest.mark.parametrize("name", ["box-cylinder-rod-sphere", "puma560", "stanford-6"])
 def test_lines_of_labels_do_not_cross(name: str) -> None:
     leads = [label.lead for label in drawn(next(p for p in LIBRARY if p.stem == name)).labels if label.lead]
