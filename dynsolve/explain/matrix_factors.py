@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dynsolve.algebra.compact.collect import matrix_factor
 from dynsolve.explain.context import Context, style_of
 from dynsolve.notation.build import factors_of, number_in_front
-from dynsolve.notation.tree import ZERO, Matrix, Node, Number, Product, Quotient, Transpose
+from dynsolve.notation.tree import Matrix, Node, Number, Product, Quotient, Transpose
 from dynsolve.notation.unicode import UnicodePrinter, width
 from dynsolve.quantities import letters
 
@@ -29,7 +29,7 @@ WIDEST = 50
 def factored(context: Context, node: Node) -> Node:
     """A matrix, or a product of matrices, with what their entries share in front of it."""
     match node:
-        case Matrix(rows) if len(rows[0]) > 1 and all(entry == ZERO for row in rows for entry in row):
+        case Matrix(rows) if len(rows[0]) > 1 and node.is_zero:
             return letters.bold("0")
         case Matrix():
             found = _factored(context, node)

@@ -143,6 +143,11 @@ class Matrix(Node, frozen=True):
 
     rows: tuple[tuple[Node, ...], ...]
 
+    @property
+    def is_zero(self) -> bool:
+        """Whether every entry is the number 0."""
+        return all(entry == ZERO for row in self.rows for entry in row)
+
 
 class Letter(Node, frozen=True):
     """A symbol of the textbook with its indices: **J**_{v_1}, H_2^0, 𝓘_1.

@@ -9,7 +9,8 @@
     numbers/        values for parameters, and what holds at a state
     numeric         a result as a NumPy function, or as SymPy
     json_export     everything as JSON
-    documents       a solution as a document: stages, steps, numbers, its summary
+    documents       a solution as a document: stages, steps, numbers
+    summary         the section that closes it
     leading         which steps lead to what is asked
     depths          what a depth shows of the steps, and which equations before it a step uses
     reports         that document as text, LaTeX, PDF, HTML or Markdown, and in a notebook

@@ -17,7 +17,8 @@ from dynsolve.explain.step import Detail
 from dynsolve.notation.tree import Node, Relation, Row, walk
 from dynsolve.quantities.stages import COURSE
 from dynsolve.solution.depths import CHECKS
-from dynsolve.solution.documents import TITLE, solution_document
+from dynsolve.solution.documents import solution_document
+from dynsolve.solution.summary import TITLE
 from tests.support import solved
 
 

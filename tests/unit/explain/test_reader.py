@@ -373,7 +373,7 @@ def test_the_summary_of_a_short_model_of_many_joints_has_all_of_it(detail: Detai
 
 
 def test_what_is_too_long_to_stand_twice_is_where_it_was_written_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("dynsolve.solution.documents.MOST_TWICE", 100)
+    monkeypatch.setattr("dynsolve.solution.summary.MOST_TWICE", 100)
     for detail in (Detail.BRIEF, Detail.NORMAL):
         whole = page(FOUR_JOINTS, detail)
         assert "𝐃, 𝐂 and 𝐠 are those of section 7." in whole

@@ -13,7 +13,8 @@ from dynsolve.explain.terms import terms_of, value_of_term
 from dynsolve.notation.rounding import marked
 from dynsolve.notation.tree import ZERO, equation
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.solution.documents import TITLE, in_model, measured_steps, solution_document
+from dynsolve.solution.documents import measured_steps, solution_document
+from dynsolve.solution.summary import TITLE, in_model
 from tests.robots import robots
 from tests.support import STEMS, document, solved
 from tests.unit.explain.test_abbreviated_steps import displayed
