@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Derivation
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, negated, plus_first, split_sign, times, total
+from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Letter, Node, Number, Product, Relation, Symbol
 from dynsolve.quantities import letters
@@ -141,7 +141,7 @@ def collected(terms: Iterable[tuple[Node, Node]]) -> Node:
 def _with_rates(symbol: Node, rates: Sequence[tuple[int, Node]]) -> Node:
     """symbol · Σ ± rate, with a minus before it where all have one."""
     front = max(sign for sign, _ in rates)
-    inner = total(plus_first([rate if sign == front else negated(rate) for sign, rate in rates]))
+    inner = total([rate if sign == front else negated(rate) for sign, rate in rates])
     return times(front, [(symbol, 1), (inner, 1)])
 
 

@@ -90,9 +90,9 @@ def summands(node: Node) -> tuple[Node, ...]:
 
 
 def total(terms: Sequence[Node]) -> Node:
-    """The sum of terms, flattened; it starts with a plus where that leaves rates and accelerations in order.
+    """The sum of terms, flattened; it starts with a plus where that leaves accelerations in order.
 
-    Terms with a minus at the front go behind the positive terms that follow: I_yy s² + I_xx c² - I_zz.
+    Terms with a minus at the front go behind positive ones that follow: ρ̇ - w q̇, I_yy s² + I_xx c² - I_zz.
     """
     flat: list[Node] = []
     for term in terms:
@@ -105,7 +105,7 @@ def total(terms: Sequence[Node]) -> Node:
         return ZERO
     if len(flat) == 1:
         return flat[0]
-    stays = not isinstance(flat[0], Negative) or _moves_once(flat[0])
+    stays = not isinstance(flat[0], Negative) or _accelerates(flat[0])
     return Sum(tuple(flat if stays else plus_first(flat)))
 
 
@@ -116,11 +116,10 @@ def plus_first(terms: Sequence[Node]) -> list[Node]:
     return [*terms[first:last], *terms[:first], *terms[last:]]
 
 
-def _moves_once(term: Node) -> bool:
-    """Whether a term is a rate or an acceleration, or a sum of these, times lengths or angles."""
+def _accelerates(term: Node) -> bool:
+    """Whether a term is an acceleration, or a sum of these, times something."""
     factors = [factor for factor in factors_of(split_sign(term)[1]) if not isinstance(factor, Number)]
-    moving = [factor for factor in factors if _dots(factor)]
-    return len(moving) == 1 < len(factors) and not isinstance(moving[0], Power)
+    return len(factors) > 1 and max(map(_dots, factors)) == 2
 
 
 def _dots(node: Node) -> int:

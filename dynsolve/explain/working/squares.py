@@ -169,19 +169,19 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
         return way
     each = list(along_axes(context, body))
     for i, along in each:
-        way = _from_components(context, body, along)
-        if way is not None:
+        if (way := _from_components(context, body, along)) is not None:
             return _begun_along(context, body, i, way)
-    i, along = min(each, key=lambda pair: _length_along(context, velocity, pair[1]))
+    i, along = min(each, key=lambda pair: _lengths_along(context, velocity, pair[1]))
     return _begun_along(context, body, i, _squared(context, body, along))
 
 
-def _length_along(context: Context, velocity: Matrix, along: Matrix) -> int:
-    """The operations of the lines in which squares along some axes are multiplied out."""
+def _lengths_along(context: Context, velocity: Matrix, along: Matrix) -> tuple[int, int]:
+    """The operations, and the minus signs, of the lines in which squares along axes are multiplied out."""
     components = [x for x in along.entries if not x.is_zero]
     turned = components if along != velocity else []
     shown = [*map(context.show, turned), *(whole for _, whole, _ in _by_rates(context, components))]
-    return sum(map(cost, shown))
+    minuses = (part for one in shown for part in walk(one) if isinstance(part, Negative))
+    return sum(map(cost, shown)), len(list(minuses))
 
 
 def _as_shown(context: Context, body: Body) -> Prose:

@@ -60,3 +60,5 @@ def test_accelerations_stay_in_their_order() -> None:
     terms = [times(1, [(d12, 1), (first, 1)]), Product((tree("c"), second)), Symbol("g")]
     assert UnicodePrinter().text(total(terms)) == "-(a + b) q̈₁ + c q̈₂ + g"
     assert UnicodePrinter().text(total([Negative(first), second])) == "q̈₂ - q̈₁"
+    away = Negative(Product((Symbol("w"), Symbol("q1", 1))))
+    assert UnicodePrinter().text(total([away, Symbol("q2", 1)])) == "q̇₂ - w q̇₁", "of rates a plus is first"

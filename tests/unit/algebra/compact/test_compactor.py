@@ -155,7 +155,7 @@ def test_products_of_rates_stand_apart(written: str, printed: str) -> None:
         ("(I2 - I1)*sin(q1)*cos(q1)", "-(I1 - I2)*sin(q1)*cos(q1)"),  # as (I1 - I2) is spelled elsewhere
         ("-(d - l/2)*cos(q1)", "-(d - l/2)*cos(q1)"),  # a distance keeps its orientation
         ("-I1 + m1*l^2*sin(q1)^2 + m2*a^2*cos(q1)^2", "m1*l**2*sin(q1)**2 + m2*a**2*cos(q1)**2 - I1"),
-        ("-d*sin(q1)*q1_dot + cos(q1)*d_dot", "-d*sin(q1)*q1_dot + cos(q1)*d_dot"),  # in the order of the q's
+        ("-d*sin(q1)*q1_dot + cos(q1)*d_dot", "cos(q1)*d_dot - d*sin(q1)*q1_dot"),
         ("cos(q1)*d_dot - a*sin(q1)*d_dot", "(cos(q1) - a*sin(q1))*d_dot"),
         ("l + d/2 + a/2", "l + a/2 + d/2"),  # no (2*l + a + d)/2
         ("d/4 + a/2", "(2*a + d)/4"),

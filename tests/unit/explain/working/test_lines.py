@@ -140,14 +140,14 @@ def test_a_velocity_turned_with_the_waist_has_the_square_of_the_velocity() -> No
 
 
 def test_a_velocity_is_written_so_that_its_square_is_seen() -> None:
-    """By the sine and the cosine of the waist: -U s₁ + V c₁ and U c₁ + V s₁."""
+    """By the sine and the cosine of the waist: V c₁ - U s₁ and U c₁ + V s₁."""
     shown = to_unicode(step("spherical-rrp", "v3").result[0], solved("spherical-rrp").style)
     assert shown == (
-        "𝐯₃ = [[-d₃ s₁ c₂ θ̇₁ + c₁ (-d₃ s₂ θ̇₂ + c₂ d\u0307₃)], [d₃ c₁ c₂ θ̇₁ + s₁ (-d₃ s₂ θ̇₂ + c₂ d\u0307₃)], "
+        "𝐯₃ = [[c₁ (c₂ d\u0307₃ - d₃ s₂ θ̇₂) - d₃ s₁ c₂ θ̇₁], [d₃ c₁ c₂ θ̇₁ + s₁ (c₂ d\u0307₃ - d₃ s₂ θ̇₂)], "
         "[d₃ c₂ θ̇₂ + s₂ d\u0307₃]]"
     )
     assert lines("spherical-rrp", "Kv3")[0] == (
-        "By (V c₁ - U s₁)² + (U c₁ + V s₁)² = U² + V² with d₃ c₂ θ̇₁ and -d₃ s₂ θ̇₂ + c₂ d\u0307₃ for U and V:"
+        "By (V c₁ - U s₁)² + (U c₁ + V s₁)² = U² + V² with d₃ c₂ θ̇₁ and c₂ d\u0307₃ - d₃ s₂ θ̇₂ for U and V:"
     )
     plain = to_unicode(step("elbow-3r", "v2").result[0], solved("elbow-3r").style)
     assert "-l_c2 (s₁ c₂ θ̇₁ + c₁ s₂ θ̇₂)" in plain, "each stands once: nothing is hidden"
@@ -174,7 +174,7 @@ def test_what_the_components_of_a_velocity_share_is_taken_out_of_the_squares() -
     (with_rate,) = (to_unicode(node, solved("planar-2r").style) for node in step("planar-2r", "Kv1").working)
     assert with_rate == "K_v1 = ½ m₁ l_c1² q̇₁² (s₁² + c₁²)"
     (unshared,) = (to_unicode(node) for node in step("in3140-rp", "Kv2").working)
-    assert unshared.startswith("K_v2 = ½ m₂ ((-L₂ sin(θ₁)")
+    assert unshared.startswith("K_v2 = ½ m₂ ((cos(θ₁) ")
     (decimal,) = (to_unicode(node) for node in step("numeric-2r", "Kv1").working)
     assert decimal.startswith("K_v1 = ½·2.5 ((0.25 sin(q₁)")
 
