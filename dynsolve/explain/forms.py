@@ -544,14 +544,15 @@ class ProductForms:
         ):
             return total([self.form(whole), self._quotient(RationalExpr(rest, divisor))])
         below, under = self._factors(divisor, apart=True)
+        return self.over(numerator, below, *under)
+
+    def over(self, numerator: Expr, number: Fraction | int, *under: Factor) -> Node:
+        """A numerator over a number and factors; with a minus in front where that is shorter."""
 
         def signed(sign: int) -> Node:
             above, over = self._factors(numerator * sign)
-            return times(
-                sign * above / below,
-                [*over, *((node, -power) for node, power in under)],
-                decimal=self.decimal,
-            )
+            factors = [*over, *((node, -power) for node, power in under)]
+            return times(sign * above / number, factors, decimal=self.decimal)
 
         found = signed(1)
         return found if split_sign(found)[0] > 0 else min(signed(-1), found, key=cost)

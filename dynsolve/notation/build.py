@@ -16,6 +16,7 @@ from dynsolve.notation.tree import (
     Arguments,
     Degrees,
     Function,
+    Letter,
     Negative,
     Node,
     Number,
@@ -39,7 +40,7 @@ def cost(node: Node, known: dict[int, tuple[Node, int]] | None = None) -> int:
     """
     known = {} if known is None else known
     match node:
-        case Symbol() | Number(_, 1):
+        case Letter() | Symbol() | Number(_, 1):
             return 0
         case Number():
             return 1

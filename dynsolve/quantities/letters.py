@@ -116,8 +116,11 @@ REGRESSOR = bold("Y")
 H_C = bold("h")
 A_C = bold("A", Words("c"))
 LAMBDA = bold("lambda")
+DET_D = Row((Words("det "), D))
 LINEAR_A = bold("A", Words("lin"))
 LINEAR_B = bold("B", Words("lin"))
+DIVISOR = Letter("Delta")
+"""What several entries of a result are divided by."""
 TASK_INERTIA = bold("Lambda")
 NULLSPACE = Row((Letter("N", style="script"), Parenthesized(bold("J", Symbol("r")))))
 RANGESPACE = Row((Letter("R", style="script"), Parenthesized(bold("J", Symbol("r")))))
@@ -320,6 +323,7 @@ OWN: dict[tuple[str, int], tuple[str, ...]] = {
     ("m", 1): ("mu", "M"),
     ("u", 1): ("xi", "w"),
     ("lambda", 1): ("mu", "nu"),
+    ("Delta", 0): ("Theta", "Gamma"),
     ("Delta", 1): ("Theta",),
     ("Q", 1): ("Xi",),
     ("n", 2): ("N", "nu"),

@@ -331,9 +331,14 @@ def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterat
 
 
 def _with_conditions(names: Iterable[str], robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
-    """Results that the exercise asks for, and what they hold under: once for those of the same."""
-    holds = {name: step.holds for step in steps for name in (step.id, *step.also)}
-    for condition, found in groupby(names, key=lambda name: holds.get(name, ())):
+    """Results that the exercise asks for, what letters in them stand for, and what they hold under.
+
+    What is the same of several is said once.
+    """
+    told = {name: (step.defines, step.holds) for step in steps for name in (step.id, *step.also)}
+    for (defined, condition), found in groupby(names, key=lambda name: told.get(name, ((), ()))):
+        if defined:
+            yield from (Text(("With the divisor of several entries:",)), Equations(defined))
         yield from (block for name in found for block in _asked_for(name, robot, steps))
         if condition:
             yield Text(condition)

@@ -54,10 +54,8 @@ from dynsolve.notation.tree import (
     Power,
     Product,
     Relation,
-    Row,
     Sum,
     Symbol,
-    Words,
     equation,
     names_in,
     number,
@@ -331,8 +329,8 @@ _SIGNS = (
 
 def _determinant(context: Context, value: Expr) -> Node:
     """det D, and by its factors what it is where that is of use."""
-    name, form = Row((Words("det "), letters.D)), context.forms.products.form(value, apart=True)
-    return equation(name, form) if cost(form) <= LONGEST else name
+    form = context.forms.products.form(value, apart=True)
+    return equation(letters.DET_D, form) if cost(form) <= LONGEST else letters.DET_D
 
 
 def _own_part(context: Context, k: int) -> tuple[str, Node] | None:
@@ -364,8 +362,7 @@ def _minors(context: Context, block: Sequence[int]) -> list[Determinant] | None:
         if size == 2:
             found.append(determinant_of_two(context, (places[0], places[1]), value, form))
         else:
-            line = equation(Row((Words("det "), letters.D)), form)
-            found.append(Determinant(line, form, (MULTIPLIED_OUT,)))
+            found.append(Determinant(equation(letters.DET_D, form), form, (MULTIPLIED_OUT,)))
     return found
 
 

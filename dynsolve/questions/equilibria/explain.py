@@ -53,6 +53,7 @@ from dynsolve.questions.equilibria.solving import (
 from dynsolve.questions.equilibria.stability import Higher, Point, Stability, by_coordinates, turned
 from dynsolve.questions.forward_dynamics.derive import outside_names
 from dynsolve.questions.set_forms import SetForms, vanishing
+from dynsolve.questions.shared_divisor import SharedDivisor, shared_divisor
 from dynsolve.robot.model import JointType, Robot
 
 _SOURCE = SLOTINE_LI.section("3.3")
@@ -77,6 +78,7 @@ LETTERS = """
 * {STEADY_ENERGY} | potential energy less the kinetic energy of a steady motion | J
 * {F_RATES} | factors of the rates in the friction
 * 𝐒 | selects the inputs
+* {DIVISOR} | what the entries of a result are divided by, given where it stands
 """
 """The lines of its letters in the list of notation."""
 
@@ -93,9 +95,10 @@ def steps(context: Context) -> Iterator[Step]:
     if "balance" in wanted:
         yield replace(_balance(context), normal=NOTED)
     if "linear_A" in wanted:
-        yield replace(_state_matrix(context), normal=NOTED)
-    if "linear_B" in wanted:
-        yield _input_matrix(context)
+        shared = _shared_divisor(context)
+        yield replace(_state_matrix(context, shared), normal=NOTED)
+        if "linear_B" in wanted:
+            yield _input_matrix(context, shared)
 
 
 # -- where nothing moves ---------------------------------------------------------------------------
@@ -761,7 +764,21 @@ _SECOND_ORDER = (
 )
 
 
-def _state_matrix(context: Context) -> Step:
+def _shared_divisor(context: Context) -> SharedDivisor | None:
+    """det D in the equilibrium, or what is left of it, where many entries of A and B are over that."""
+    found = [context.values[name] for name in ("linear_A", "linear_B") if name in context.wanted]
+    matrices = [one for one in found if not isinstance(one, Skipped)]
+    if not matrices:
+        return None
+    size = determinant(linearization.at_equilibrium(context.robot).matrix(context.values["D"]))
+    return shared_divisor(context.forms.products, matrices, size)
+
+
+def _linear_form(context: Context, name: str, shared: SharedDivisor | None) -> Node:
+    return context.form(name) if shared is None else shared.form(context.values[name])
+
+
+def _state_matrix(context: Context, shared: SharedDivisor | None) -> Step:
     robot, value = context.robot, context.values["linear_A"]
     if isinstance(value, Skipped):
         return not_derived("linear_A", "The matrix A of the linear model", value.why)
@@ -783,8 +800,8 @@ def _state_matrix(context: Context) -> Step:
     if has_friction:
         F = linearization.damping(robot, context.values["friction"])
         working.append(equation(letters.bold("F"), context.show(F)))
-    if not is_diagonal(D):
-        working.append(formula("det 𝐃 = {value}", value=context.show(determinant(D))))
+    if shared is None and not is_diagonal(D):
+        working.append(equation(letters.DET_D, context.show(determinant(D))))
     jumps = "Coulomb friction jumps where a rate changes its sign: it has no part in a linear model."
     return Step(
         id="linear_A",
@@ -811,13 +828,15 @@ def _state_matrix(context: Context) -> Step:
         ),
         source=_SOURCE,
         working=tuple(working),
-        result=(equation(letters.LINEAR_A, context.form("linear_A")),),
+        lines=() if shared is None else (shared.line,),
+        result=(equation(letters.LINEAR_A, _linear_form(context, "linear_A", shared)),),
+        defines=() if shared is None else (shared.meaning,),
         notes=((jumps,),) if any(act.functions(robot) for act in has_friction) else (),
         detail=Detail.BRIEF,
     )
 
 
-def _input_matrix(context: Context) -> Step:
+def _input_matrix(context: Context, shared: SharedDivisor | None) -> Step:
     robot, value = context.robot, context.values["linear_B"]
     if isinstance(value, Skipped):
         return not_derived("linear_B", "The matrix B of the linear model", value.why)
@@ -832,7 +851,8 @@ def _input_matrix(context: Context) -> Step:
         why=say("{column}: {inputs}. $𝐒$ {ones}.", column=column, inputs=listed(inputs), ones=ones),
         formula=equation(letters.LINEAR_B, formula("[𝟎; 𝐃⁻¹ 𝐒]")),
         source=_SOURCE,
-        result=(equation(letters.LINEAR_B, context.form("linear_B")),),
+        result=(equation(letters.LINEAR_B, _linear_form(context, "linear_B", shared)),),
+        defines=() if shared is None else (shared.meaning,),
         detail=Detail.BRIEF,
     )
 

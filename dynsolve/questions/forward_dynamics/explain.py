@@ -28,8 +28,6 @@ from dynsolve.notation.tree import Node, Number, Quotient, Symbol, equation, map
 from dynsolve.quantities import letters
 from dynsolve.questions.forward_dynamics.derive import TOO_LARGE
 
-_DET = formula("det 𝐃")
-
 
 def steps(context: Context) -> Iterator[Step]:
     """q̈ from the forces, where it is asked for."""
@@ -104,8 +102,11 @@ def inverse_of_inertia(context: Context) -> tuple[Line, ...]:
         told = "$𝐃$ is diagonal; its inverse has the reciprocals:"
     elif len(size) > 1 and all(len(fraction_of(entry).denominator) == len(size) for entry in inverse.entries):
         adjoint, value = context.show(adjugate(D)), context.show(size)
-        over = Quotient(Number(1), _DET)
-        parts = (formula("𝐃⁻¹ = {over} {adjoint}", over=over, adjoint=adjoint), equation(_DET, value))
+        over = Quotient(Number(1), letters.DET_D)
+        parts = (
+            formula("𝐃⁻¹ = {over} {adjoint}", over=over, adjoint=adjoint),
+            equation(letters.DET_D, value),
+        )
         return (Line(say(told), parts, is_kept=True),) if is_small(adjoint, value) else _in_entries(D)
     shown = context.forms.of(inverse)
     if is_small(shown):
@@ -128,8 +129,8 @@ def _in_entries(D: Matrix) -> tuple[Line, ...]:
 
     adjoint = mapped(compactor.matrix(adjugate(whole)), with_letters)
     value = mapped(compactor.form(determinant(whole)), with_letters)
-    over = Quotient(Number(1), _DET)
-    parts = (formula("𝐃⁻¹ = {over} {adjoint}", over=over, adjoint=adjoint), equation(_DET, value))
+    over = Quotient(Number(1), letters.DET_D)
+    parts = (formula("𝐃⁻¹ = {over} {adjoint}", over=over, adjoint=adjoint), equation(letters.DET_D, value))
     told = "The inverse of $𝐃$, its adjugate over its determinant, in the entries of $𝐃$:"
     return (Line(say(told), parts, is_kept=True),) if is_small(adjoint, value) else ()
 

@@ -11,8 +11,9 @@ import dynsolve
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
+from dynsolve.notation.python import to_python
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Matrix, Relation, Symbol
+from dynsolve.notation.tree import Matrix, Relation, Symbol, mapped, walk
 from dynsolve.problem import read_problem
 from dynsolve.questions.equilibria.linear_check import verify_linear
 from dynsolve.questions.task_inertia.check import verify_task_inertia
@@ -193,3 +194,67 @@ find: [linear_A]
 def test_where_the_state_is_no_equilibrium_there_is_no_b_either() -> None:
     found = results(ARM.replace("q1: 60deg, q2: 30deg", "q1: 60deg, q2: 0"))
     assert found["linear_B"] == found["linear_A"]
+
+
+ELBOW = """
+gravity: [0, -g, 0]
+dh: [{theta: u*, a: A}, {theta: v* - u*, a: B}]
+masses:
+  - {mass: m1, link: 1, center: {along: 2/3}, inertia: {zz: J1}}
+  - {mass: m2, link: 2, center: {along: 1/3}, inertia: {zz: J2}}
+dampers: [{damping: b, of: v - u}]
+passive: [v]
+linearize: {u: 90deg, v: 90deg}
+find: [linear_A, linear_B]
+"""
+SLIDING = (
+    ELBOW.replace("dh: [", "dh: [{d: z*}, ")
+    .replace("link: 2", "link: 3")
+    .replace("link: 1", "link: 2")
+    .replace("linearize: {", "linearize: {z: 0, ")
+)
+"""Its determinant is that of the elbow times a mass: what is left over that mass has no name."""
+
+
+@pytest.mark.parametrize(("text", "is_determinant"), [(ELBOW, True), (SLIDING, False)])
+def test_the_divisor_of_many_entries_has_a_name(text: str, is_determinant: bool) -> None:
+    """Written out it stood in the ten entries, and twice: the name stands for exactly that."""
+    solution = dynsolve.solve(text)
+    steps = {step.id: step for step in solution.steps if step.id in ("linear_A", "linear_B")}
+    (meaning,) = steps["linear_A"].defines
+    assert isinstance(meaning, Relation)
+    assert (formula("det 𝐃") in meaning.parts) is is_determinant
+    letter, *_, value = meaning.parts
+    at = {name: 0.3 + 0.17 * k for k, name in enumerate(solution.robot.parameters)}
+    for name, step in steps.items():
+        (result,) = step.result
+        assert isinstance(result, Relation) and isinstance(result.parts[-1], Matrix)
+        named = [entry for row in result.parts[-1].rows for entry in row]
+        assert sum(letter in walk(entry) for entry in named) == {"linear_A": 8, "linear_B": 2}[name]
+        exact = [entry for row in solution.to_json()["results"][name] for entry in row]
+        for ours, theirs in zip(named, exact, strict=True):
+            written = to_python(mapped(ours, lambda node: value if node == letter else node))
+            assert numbers(written, at) == pytest.approx(numbers(theirs, at))
+
+
+def test_a_short_divisor_is_written_where_it_is() -> None:
+    cart = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, t: revolute}
+  bodies: [{mass: M, at: [x, 0, 0]}, {mass: m, at: [x + l*sin(t), l*cos(t), 0]}]
+passive: [t]
+linearize: {x: 0, t: 0}
+find: [linear_A]
+"""
+    assert not any(step.defines for step in dynsolve.solve(cart).steps)
+
+
+@pytest.mark.parametrize("detail", ["results", "brief", "normal", "full"])
+def test_at_every_depth_the_name_is_told_before_it_is_used(detail: str) -> None:
+    """It is another one where the problem has it."""
+    shown = dynsolve.solve(ELBOW.replace("J1", "Delta")).to_markdown(detail=detail)
+    before, after = shown.replace("{} ", "").split(r"\Theta", maxsplit=1)
+    assert before.endswith("=: ") or after.startswith(r" = \text{det }")
+    assert r"\Theta}" in after
+    assert detail != "full" or "divided by" in after.split("Notation")[-1]
