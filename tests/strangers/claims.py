@@ -577,11 +577,9 @@ def _holds(m: Mechanism, s: Sentence) -> bool:
 # equilibria
 
 
-@says("Where the constraints hold the rank of {}[ without the columns of what motors hold] is #.")
+@says("Where the constraints hold the rank of {}[ without the column[s] of {&}] is #.")
 def _rank_where_held(m: Mechanism, s: Sentence) -> bool:
-    robot, columns = m.solution.robot, list(range(len(m.coordinates)))
-    if "motors" in s.text:
-        columns = sorted(robot.actions.passive)
+    columns = [k for k, q in enumerate(m.coordinates) if q not in names_of(s.formulas[1:])]
     found = [m.solved(lambda p: m.result("hc", p)[:, 0], m.coordinates, seed) for seed in range(8)]
     ranks = [np.linalg.matrix_rank(m.result("Ac", p)[:, columns], 1e-3) for p in found if p is not None]
     return max(ranks) == int(s.words[-1])
@@ -898,6 +896,14 @@ def _not_cyclic(m: Mechanism, s: Sentence) -> bool:
     return m.changes(lambda p: m.result("tau", p)[others], (q,))
 
 
+@says("The constraints change as # moves: it stands in them.")
+def _moves_constraints(m: Mechanism, s: Sentence) -> bool:
+    k = [to_unicode(Symbol(q)) for q in m.coordinates].index(s.words[0])
+    return not near(m.result("Ac", m.point())[:, k], 0) or m.changes(
+        lambda p: m.result("Ac", p), (m.coordinates[k],)
+    )
+
+
 @says(
     "The given state is no equilibrium: <gravity|springs|gravity and springs|the potential energy|the given "
     "forces> move[s] #, ..."
@@ -977,7 +983,8 @@ def _no_coordinates(m: Mechanism, s: Sentence) -> bool:
     left = m.at_rest(where)[rows]
     if m.solution.robot.questions.constraints:
         A = m.result("Ac", where)[:, rows]
-        left = np.append(m.result("hc", where), np.linalg.det([*A, left]) if len(A) < len(rows) else 0)
+        together = np.array([*A, left])
+        left = np.append(m.result("hc", where), rank(together) > rank(A))
     return bool(names) and near(left, 0) and near(np.array(still), 0)
 
 
@@ -1254,10 +1261,10 @@ Combined, without factors that are never 0:
 Combined with the constraints, without factors that are never 0:
 The parameters are the same.
 What is left of ℒ where nothing moves, with the opposite sign.
-Along what the constraints leave free, the columns of {} with {}, the energy is curved as {} is, with the {}
-  of the equilibrium.
-Where that is positive definite, the equilibrium is stable; where the energy falls in some direction, it is
-  not.
+Along what the constraints leave free, the columns of {} with {}, <the energy|it> is curved as {} is, with
+  the {} of the equilibrium.
+Where that is positive definite, the <equilibrium|motion> is stable; where <the energy|{}> falls in some
+  direction, it is not.
 Where the energy is curved upwards along each of them, the equilibrium is stable; where it falls along one, it
   is not.
 How stable <they|the others> are is not told here.

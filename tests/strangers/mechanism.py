@@ -254,13 +254,13 @@ class Mechanism:
         )
         if self.solution.robot.questions.constraints:
             A = self.result("Ac", point)
-            pull = np.linalg.lstsq(A.T, force, rcond=None)[0]
+            pull = np.linalg.lstsq(A.T[free], force[free], rcond=None)[0]
             held = [
                 self.slope(lambda p: self.result("Ac", p).T @ pull, point, 0, {q: 1.0})
                 for q in self.coordinates
             ]
             force, slopes = force - A.T @ pull, slopes - np.transpose(held)
-            along = np.linalg.svd(A)[2][len(A) :].T
+            along = along @ np.linalg.svd(A[:, free])[2][len(A) :].T
         curved = np.linalg.eigvalsh(along.T @ slopes @ along)
         right = np.all(curved > NEAR) if kind == "stable" else np.any(curved < -NEAR)
         robot = self.solution.robot

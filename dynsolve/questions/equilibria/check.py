@@ -68,7 +68,7 @@ def in_balance(forms: Forms, forces: Node) -> list[Node]:
     robot, wanted = forms.robot, wanted_rows(forms.robot)
     assert isinstance(forces, MatrixTree)
     row = tuple(forces.rows[k][0] for k in wanted)
-    if not robot.questions.constraints or robot.questions.model.steady:
+    if not robot.questions.constraints:
         return list(row)
     A, h = forms("Ac"), forms("hc")
     order = multipliers(robot, *(forms.values[name] for name in ("g", "Ac", "hc"))).rank + 1
@@ -85,7 +85,7 @@ def in_balance(forms: Forms, forces: Node) -> list[Node]:
 def holding(forms: Forms, forces: Node) -> Callable[[Mapping[str, float]], bool]:
     """Whether there are multipliers where `in_balance` is 0: gᵀ leaves the rank of A_c as it is."""
     robot, wanted = forms.robot, wanted_rows(forms.robot)
-    if not robot.questions.constraints or robot.questions.model.steady:
+    if not robot.questions.constraints:
         return lambda at: True
     program = compile_trees([forms("Ac"), forces])
 
@@ -180,7 +180,11 @@ def verify_equilibria(
         is_one = found is not None and holds(found)
         if found is not None and is_one and not _lies_in_any(robot, [*programs, *untold], found):
             raise VerificationError("an equilibrium is missing; this is a fault of dynsolve")
-    whole = compile_trees([balanced, *([constraints] if constraints else [])])
+    whole = compile_trees([balanced])
+    if isinstance(constraints, MatrixTree) and isinstance(balanced, MatrixTree):
+        columns = wanted_rows(robot)
+        rows = tuple(tuple(row[k] for k in columns) for row in constraints.rows)
+        whole = compile_trees([MatrixTree(tuple(balanced.rows[k] for k in columns)), MatrixTree(rows)])
     allowed = compile_trees(
         list(zeros[-len(constraints.rows) :] if isinstance(constraints, MatrixTree) else ())
     )
@@ -292,7 +296,7 @@ def _verify_along(robot: Robot, program: Program, along: Along, at: Mapping[str,
     Z, held, second = (_numbers(one, at) for one in (along.free, along.multipliers, along.second))
     columns = list(zip(*Z, strict=True))
     gaps = [sum(a * z for a, z in zip(row, column, strict=True)) for row in A for column in columns]
-    pulls = (sum(x * row[k] for (x,), row in zip(held, A, strict=True)) for k in range(robot.n))
+    pulls = (sum(x * row[k] for (x,), row in zip(held, A, strict=True)) for k in range(len(g)))
     gaps += [force[0] - pull for force, pull in zip(g, pulls, strict=True)]
     theirs = _between(columns, _slopes(robot, program, at))
     gaps += [a - b for mine, row in zip(second, theirs, strict=True) for a, b in zip(mine, row, strict=True)]
@@ -323,7 +327,7 @@ def _rises_along(robot: Robot, program: Program, at: Mapping[str, float]) -> boo
 
 def _rises_on_curve(robot: Robot, program: Program, at: Mapping[str, float]) -> bool:
     """Whether the energy rises to both sides along the curve that is left free (Runge and Kutta)."""
-    names = [q.name for q in robot.coordinates]
+    names = [robot.coordinates[k].name for k in wanted_rows(robot)]
 
     def moved(q: Mapping[str, float], direction: Sequence[float], step: float) -> dict[str, float]:
         return {**q, **{name: q[name] + step * x for name, x in zip(names, direction, strict=True)}}
@@ -352,7 +356,7 @@ def _rises_on_curve(robot: Robot, program: Program, at: Mapping[str, float]) -> 
 def _rises_around(robot: Robot, program: Program, allowed: Program, at: Mapping[str, float]) -> bool | None:
     """Whether the energy rises to all that is allowed near by; None where nothing is found there."""
     random = Random(1)  # noqa: S311 - the same every time is wanted
-    names, rises = [q.name for q in robot.coordinates], list[bool]()
+    names, rises = [robot.coordinates[k].name for k in wanted_rows(robot)], list[bool]()
     for _ in range(_NEARBY):
         beside = {**at, **{name: at[name] + random.uniform(-_WIDE, _WIDE) for name in names}}
         near = zero_near(robot, allowed, beside)
@@ -375,12 +379,12 @@ def _slopes(robot: Robot, program: Program, at: Mapping[str, float]) -> list[lis
 
     def left(q: Mapping[str, float]) -> list[float]:
         forces, rows = program.run(q)
-        held = (sum(x * row[k] for x, row in zip(pulls, rows, strict=True)) for k in range(robot.n))
+        held = (sum(x * row[k] for x, row in zip(pulls, rows, strict=True)) for k in range(len(forces)))
         return [force[0] - x for force, x in zip(forces, held, strict=True)]
 
     slopes = []
-    for q in robot.coordinates:
-        ahead, behind = (left({**at, q.name: at[q.name] + step}) for step in (_STEP, -_STEP))
+    for name in (robot.coordinates[k].name for k in wanted_rows(robot)):
+        ahead, behind = (left({**at, name: at[name] + step}) for step in (_STEP, -_STEP))
         slopes.append([(a - b) / (2 * _STEP) for a, b in zip(ahead, behind, strict=True)])
     return slopes
 

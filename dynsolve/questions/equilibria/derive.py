@@ -7,7 +7,7 @@ from functools import partial
 
 from dynsolve.derivation.graph import Rule
 from dynsolve.questions.equilibria import balance, linearization
-from dynsolve.questions.equilibria.solving import constrained_equilibria, equilibria
+from dynsolve.questions.equilibria.solving import equilibria
 from dynsolve.questions.forward_dynamics.derive import outside_names
 from dynsolve.robot.model import Robot
 
@@ -17,12 +17,11 @@ def rules(robot: Robot) -> Iterator[Rule]:
     if not robot.has_dynamics:
         return
     yield Rule("balance", ("g",), partial(balance.balance, robot))
+    held = ("Ac", "hc") if robot.questions.constraints else ()
     if robot.questions.model.steady:
-        yield Rule("equilibria", ("D", "C", "g"), partial(linearization.steady_equilibria, robot))
-    elif robot.questions.constraints:
-        yield Rule("equilibria", ("g", "D", "Ac", "hc"), partial(constrained_equilibria, robot))
+        yield Rule("equilibria", ("D", "C", "g", *held), partial(linearization.steady_equilibria, robot))
     else:
-        yield Rule("equilibria", ("g", "D"), partial(equilibria, robot))
+        yield Rule("equilibria", ("g", "D", *held), partial(equilibria, robot))
     if robot.questions.model.linearize:
         acting = (*outside_names(robot), *robot.actions.resistance)
         yield Rule("linear_A", ("D", "g", *acting), partial(linearization.state_matrix, robot))

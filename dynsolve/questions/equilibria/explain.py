@@ -114,8 +114,6 @@ _COULOMB = "Coulomb friction is left out: wherever it holds, there is rest, too.
 _CONSTANT = "All this is with motors whose forces stay as they are."
 _NOT_HELD = "All this is without Coulomb friction{held}."
 _CAN_HOLD = ", which can hold what is not stable"
-_CONSTRAINED = formula("𝐠 = 𝐀_cᵀ 𝛌")
-_DEPENDENT = formula("[𝐀_c; 𝐠ᵀ]")
 _NEVER_HELD = "Where all of them are 0, the rows of $𝐀_c$ are dependent and there is no $𝛌$."
 _NO_MULTIPLIERS = "there is no $𝛌$, and no equilibrium"
 _MAY_BE_DEPENDENT = "the rows of $𝐀_c$ may be dependent; there need then be no $𝛌$, and no equilibrium."
@@ -129,7 +127,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         return
     shown = EquilibriaForms(robot, context.values)
     cases, model = shown.equilibria, robot.questions.model
-    steady = bool(model.steady)
+    steady = _is_steady(robot)
     told = [shown.relations(*both) for both in zip(found.alternatives, cases, strict=True)]
     result: tuple[Node, ...] = tuple(as_row(listed(one)) for one in told if one)
     constrained, working = _with_constraints(context) if robot.questions.constraints else ((), ())
@@ -137,8 +135,9 @@ def _equilibria(context: Context) -> Iterator[Step]:
     combined = _combined(context, shown, found)
     lines = (Line(_combined_by(found, where, bool(constrained)), combined),) if combined else ()
     notes = [*_of_cases(shown, found, where), *_besides(context, shown, found)]
-    forces: Node = FORCES if steady else letters.G
-    values = context.show(forces_of_motion(context)) if steady else context.form("g")
+    left = forces = _forces_of(robot)
+    if constrained:
+        left = formula("{forces} = 𝐀_cᵀ 𝛌", forces=forces)
     balance = (
         "Motors hold the others by forces that stay as they are; what has none must be in balance: "
         "{passive}. "
@@ -150,15 +149,15 @@ def _equilibria(context: Context) -> Iterator[Step]:
         title="Where nothing else moves" if steady else "Where nothing moves",
         why=say(
             "{which}{held}{constrained}{given}",
-            which=why(context) if steady else _at_rest(robot, _CONSTRAINED if constrained else letters.G),
+            which=why(context, left) if steady else _at_rest(robot, left),
             held=say(balance, passive=passive) if model.inputs_given else "",
             constrained=constrained,
             given=say(_GIVEN, these=say(", and {these}", these=side_by_side(assumed)) if assumed else "")
             if robot.parameters
             else "",
         ),
-        formula=_CONSTRAINED if constrained else _balance_of(robot, forces, values),
-        task=_CONSTRAINED if constrained else equation(forces, _ZERO),
+        formula=left if constrained else _balance_of(robot, forces, _shown_forces(context)),
+        task=left if constrained else equation(forces, _ZERO),
         source=SOURCE if steady else SLOTINE_LI.section("3.1"),
         working=working,
         lines=lines,
@@ -174,6 +173,26 @@ def _equilibria(context: Context) -> Iterator[Step]:
     )
     if any(found.points) or (constrained and cases):
         yield _stability(context, shown, found)
+
+
+def _is_steady(robot: Robot) -> bool:
+    return bool(robot.questions.model.steady)
+
+
+def _forces_of(robot: Robot) -> Node:
+    """The letters of the forces in balance: g, or what is left in a steady motion."""
+    return FORCES if _is_steady(robot) else letters.G
+
+
+def _forces(context: Context) -> Matrix:
+    """These forces, n×1."""
+    still: Matrix = context.values["g"]
+    return steady_forces(context.robot, context.values["C"], still) if _is_steady(context.robot) else still
+
+
+def _shown_forces(context: Context) -> Node:
+    """These forces as they are printed."""
+    return context.show(_forces(context)) if _is_steady(context.robot) else context.form("g")
 
 
 def _where(shown: EquilibriaForms, found: Equilibria) -> Prose:
@@ -193,8 +212,7 @@ def _combined(context: Context, shown: EquilibriaForms, found: Equilibria) -> tu
     said = {equation(value, Number(0)) for one in shown.equilibria for value in one}
     own: set[Expr] = set()
     if not robot.questions.constraints:
-        balanced = forces_of_motion(context) if robot.questions.model.steady else context.values["g"]
-        own = {sign * force for force in balanced.entries for sign in (1, -1)}
+        own = {sign * force for force in _forces(context).entries for sign in (1, -1)}
     rings = {robot.ring: None} | {one.expr.ring: None for case in found.alternatives for one in case}
     places = [Transfer(robot.ring, ring) for ring in rings]
     both = (
@@ -320,7 +338,7 @@ def _rest(context: Context, shown: EquilibriaForms, slid: Mapping[int, Expr]) ->
     robot, form = shown.robot, shown.compactor(shown.robot.ring).form
     if robot.questions.constraints:
         return (_COULOMB,)
-    forces = forces_of_motion(context) if robot.questions.model.steady else context.values["g"]
+    forces = _forces(context)
     balanced = {k: forces[k, 0] for k in wanted_rows(robot) if not forces[k, 0].is_zero}
     rest = [
         Relation((form(-slid[k]), form(force), form(slid[k])), ("≤", "≤"))
@@ -436,26 +454,34 @@ def _at_rest(robot: Robot, left: Node) -> Prose:
 def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
     """For which forces there are multipliers, and the rows that are dependent there."""
     robot = context.robot
-    columns = wanted_rows(robot)
-    held = multipliers(robot, *(context.values[name] for name in ("g", "Ac", "hc")))
+    columns, letter = wanted_rows(robot), formula("{forces}ᵀ", forces=_forces_of(robot))
+    held = multipliers(robot, _forces(context), context.values["Ac"], context.values["hc"])
     order = held.rank + 1
     if order > len(columns):
         return ("The constraints leave nothing free: what they allow is an equilibrium. ",), ()
-    A, g = context.form("Ac"), context.form("g")
+    A, g = context.form("Ac"), _shown_forces(context)
     assert isinstance(A, MatrixTree) and isinstance(g, MatrixTree)
     forces = tuple(g.rows[k][0] for k in columns)
     together = MatrixTree((*(tuple(row[k] for k in columns) for row in A.rows), forces))
-    free = " without the columns of what motors hold" if len(columns) < robot.n else ""
+    others = listed([Symbol(q.name) for k, q in enumerate(robot.coordinates) if k not in columns])
+    many = "s" * (robot.n - len(columns) > 1)
+    free = say(f" without the column{many} of {{others}}", others=others) if others else ()
+    dependent = formula("[𝐀_c; {letter}]", letter=letter)
     is_square = len(together.rows) == len(columns) == order
-    there = f"Where the constraints hold the rank of $𝐀_c${free} is {held.rank}. " * held.allowed.is_less
+    there = say(f"Where the constraints hold the rank of $𝐀_c${{free}} is {held.rank}. ", free=free)
     zero = "their determinant is" if is_square else f"all their minors of order {order} are"
-    shown: list[Node] = [equation(_DEPENDENT, together)] if is_small(together) else []
+    shown: list[Node] = [equation(dependent, together)] if is_small(together) else []
     if is_square:
         product = SetForms(robot, context.values).product(determinant(vstack(held.A, held.g)))
-        size = formula("det {rows} = {product}", rows=_DEPENDENT, product=product)
+        size = formula("det {rows} = {product}", rows=dependent, product=product)
         shown += [size] if is_small(product) else []
     return (
-        say(f"{there}There is a $𝛌$ where $𝐠ᵀ$ is a combination of the rows of $𝐀_c${free}: {zero} 0. "),
+        say(
+            f"{{there}}There is a $𝛌$ where {{g}} is a combination of the rows of $𝐀_c${{free}}: {zero} 0. ",
+            there=there if held.allowed.is_less else (),
+            g=letter,
+            free=free,
+        ),
         tuple(shown),
     )
 
@@ -470,7 +496,7 @@ def _balance_of(robot: Robot, forces: Node, values: Node) -> Node:
 
 def _force(robot: Robot, k: int) -> Node:
     """g₁, or τ₁ in a motion that goes on, of a coordinate from 0."""
-    return letters.force(robot.coordinates[k]) if robot.questions.model.steady else letters.entry("g", k + 1)
+    return letters.force(robot.coordinates[k]) if _is_steady(robot) else letters.entry("g", k + 1)
 
 
 def _special(shown: EquilibriaForms, case: SpecialCase) -> Iterator[Prose]:
@@ -504,19 +530,16 @@ def _of_special_forces(shown: EquilibriaForms, case: SpecialCase, where: Node) -
 
 def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> Step:
     robot = context.robot
-    steady = bool(robot.questions.model.steady)
-    forces = context.values["g"]
-    flat = _flat(robot, found)
+    steady = _is_steady(robot)
+    forces, flat = _forces(context), _flat(robot, found)
     why: Prose = say(_ENERGY, of="potential energy", flat=flat)
     if robot.questions.model.inputs_given:
         of = say(f"energy $𝒫 - 𝛕ᵀ 𝐪$, the forces of the motors staying as they are{'' if flat else ','}")
         why = say(_ENERGY, of=of, flat=flat)
     working: tuple[Node, ...] = ()
-    second: Node = _DG
     if steady:
-        why, energy = energy_of_motion(context, flat)
-        forces, working = forces_of_motion(context), (energy,)
-        second = SECOND
+        why = energy_of_motion(context, say("Where the matrix of its second derivatives{flat}", flat=flat))
+        working = (shown_energy(context),)
     told = [
         (point, _place(shown, point, case, shown.relations(one, case)))
         for one, case, points in zip(found.alternatives, shown.equilibria, found.points, strict=True)
@@ -524,14 +547,18 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
     ]
     more: Prose = ()
     lines: tuple[Line, ...] = ()
-    if robot.questions.constraints and not steady:
+    if robot.questions.constraints:
         told, more = _of_constrained(told, all(found.points))
         meeting = [point.is_crossing for point, _ in told]
-        why = say(_CONSTRAINED_ENERGY, curved=_CURVED) if not all(meeting) else ()
+        along = say(_ALONG_FREE, what="it" if steady else "the energy", curved=_curved(robot))
+        why = energy_of_motion(context, along) if steady else (*along, _CONSTRAINED_ENERGY)
+        why = why if not all(meeting) else ()
+        working = working if told else ()
         why += (f"{' ' * bool(why)}{_MEETING}",) if any(meeting) else ()
         lines = tuple(line for point, place in told for line in _along(shown, point, place))
     else:
         curvature = context.show(linearization.curvature(robot, forces))
+        second = formula("∂{forces}/∂𝐪", forces=_forces_of(robot))
         working = (*working, *([equation(second, curvature)] if is_small(curvature) else []))
     sentences = [*(_verdict(context, shown, found, *one) for one in told), *([more] if more else [])]
     if robot.questions.model.inputs_given and any(point.is_told for point, _ in told):
@@ -592,17 +619,23 @@ def _of_constrained(
     return known, (f"How stable {'the others' if known else 'they'} are is not told here.",)
 
 
+_ALONG_FREE = (
+    "Along what the constraints leave free, the columns of $𝐙$ with $𝐀_c 𝐙 = 𝟎$, {what} is curved as "
+    "{curved} is, with the $𝛌$ of the equilibrium. Where that"
+)
 _CONSTRAINED_ENERGY = (
-    "Along what the constraints leave free, the columns of $𝐙$ with $𝐀_c 𝐙 = 𝟎$, the energy is curved as "
-    "{curved} is, with the $𝛌$ of the equilibrium. Where that is positive definite, the equilibrium is "
-    "stable; where the energy falls in some direction, it is not."
+    " is positive definite, the equilibrium is stable; where the energy falls in some direction, it is not."
 )
 _MEETING = (
     "Smooth sets of configurations, each with a factor of the constraints that is 0, meet at such a point. "
     "Where the energy is curved upwards along each of them, the equilibrium is stable; where it falls along "
     "one, it is not."
 )
-_CURVED = formula("𝐙ᵀ (∂(𝐠 - 𝐀_cᵀ 𝛌)/∂𝐪) 𝐙")
+
+
+def _curved(robot: Robot) -> Node:
+    """How the energy is curved between the columns of Z."""
+    return formula("𝐙ᵀ (∂({forces} - 𝐀_cᵀ 𝛌)/∂𝐪) 𝐙", forces=_forces_of(robot))
 
 
 def _along(shown: EquilibriaForms, point: Point, place: Prose) -> Iterator[Line]:
@@ -616,7 +649,7 @@ def _along(shown: EquilibriaForms, point: Point, place: Prose) -> Iterator[Line]
         told = (
             formula("𝐙 = {free}", free=free),
             equation(letters.LAMBDA, scalar(held)),
-            equation(_CURVED, scalar(second)),
+            equation(_curved(shown.robot), scalar(second)),
         )
         yield Line(say("{place}:", place=place), told, is_kept=True)
 
@@ -665,8 +698,7 @@ def _verdict(
     steady = dict(robot.questions.model.steady)
     names = [robot.coordinates[k].name for k in point.neutral]
     free = listed([Symbol(name) for name in names if name not in steady])
-    forces = forces_of_motion(context) if steady else context.values["g"]
-    slopes = (robot.ring.diff(force, k) for force in forces.entries for k in point.neutral)
+    slopes = (robot.ring.diff(force, k) for force in _forces(context).entries for k in point.neutral)
     changes = any(not slope.is_zero for slope in slopes)
     if point.inside:
         inside = listed([*map(shown.inequality, point.inside)])
@@ -861,11 +893,10 @@ def _input_matrix(context: Context, shared: SharedDivisor | None) -> Step:
 
 SOURCE = GOLDSTEIN.section("2.7")
 FORCES = formula("𝐂 𝐪̇ + 𝐠")
-SECOND = formula("∂({forces})/∂𝐪", forces=FORCES)
 
 
-def why(context: Context) -> Prose:
-    """Which rates are held, by what, and what is left of the equations of the others."""
+def why(context: Context, left: Node) -> Prose:
+    """Which rates are held, by what, and what is `left` of the equations of the others."""
     robot = context.robot
     rates = robot.questions.model.steady
     passive = {robot.coordinates[k].name for k in robot.actions.passive}
@@ -873,26 +904,22 @@ def why(context: Context) -> Prose:
     driven = listed([Symbol(name) for name, _ in rates if name not in passive])
     return say(
         "In this motion {held} all the time; the other rates and all accelerations are 0. {driven}{free}Of "
-        "the equations of the others {forces} is left. ",
+        "the equations of the others {left} is left. ",
         held=side_by_side([equation(Symbol(name, 1), value) for name, value in rates]),
         driven=say("Motors keep the rate of {names}, whatever that takes. ", names=driven) if driven else "",
         free=say("No motor drives {names}. ", names=free) if free else "",
-        forces=FORCES,
+        left=left,
     )
 
 
-def forces_of_motion(context: Context) -> Matrix:
-    """C q̇ + g in this motion, n×1."""
-    return steady_forces(context.robot, context.values["C"], context.values["g"])
-
-
-def energy_of_motion(context: Context, flat: Prose) -> tuple[Prose, Node]:
-    """What the stability follows from, and the energy whose derivatives these forces are.
-
-    `flat` is that of `_flat`.
-    """
+def shown_energy(context: Context) -> Node:
+    """The energy whose derivatives these forces are."""
     value = context.show(steady_energy(context.robot, context.values["P"], context.values["K"]))
-    shown = equation(letters.STEADY_ENERGY, formula("𝒫 - 𝒦"), value)
+    return equation(letters.STEADY_ENERGY, formula("𝒫 - 𝒦"), value)
+
+
+def energy_of_motion(context: Context, where: Prose) -> Prose:
+    """What the stability follows from: `where` something is positive definite."""
     elsewhere = "; where {V} falls in some direction, it is not. "
     if may_be_held(context.robot, context.values["D"]):
         elsewhere = (
@@ -901,11 +928,10 @@ def energy_of_motion(context: Context, flat: Prose) -> tuple[Prose, Node]:
         )
     return say(
         "These forces are the derivatives of {V}, the potential energy less the kinetic energy of the "
-        "motion. Where the matrix of its second derivatives{flat} is positive definite, the motion is stable"
-        + elsewhere,
+        "motion. {where} is positive definite, the motion is stable" + elsewhere,
         V=letters.STEADY_ENERGY,
-        flat=flat,
-    ), shown
+        where=where,
+    )
 
 
 # -- hints -----------------------------------------------------------------------------------------

@@ -163,21 +163,24 @@ def steady_energy(robot: Robot, P: Expr, K: Expr) -> Expr:
     return AtState(robot.ring, steady_rates(robot))(P - K)
 
 
-def steady_equilibria(robot: Robot, D: Matrix, C: Matrix, gravity: Matrix) -> Equilibria | Skipped:
-    """Where the others are in balance."""
-    if robot.questions.constraints:
-        return Skipped("what the constraints hold in a steady motion is not looked for")
+def steady_equilibria(
+    robot: Robot, D: Matrix, C: Matrix, gravity: Matrix, *constraints: Matrix
+) -> Equilibria | Skipped:
+    """Where the others are in balance, held by constraints, A_c and h, if there are any."""
     forces = steady_forces(robot, C, gravity)
     changing = (*D.entries, *(forces[row, 0] for row in wanted_rows(robot)))
+    held = tuple(entry for one in constraints for entry in one.entries)
     for name, _ in robot.questions.model.steady:
-        k = robot.ring.names.index(name)
+        k, moving = robot.ring.names.index(name), to_unicode(Symbol(name))
         if any(not robot.ring.diff(entry, k).is_zero for entry in changing):
-            moving = to_unicode(Symbol(name))
             return Skipped(f"the equations of the others change as {moving} moves: it is not cyclic")
+        stands = constraints and any(not row[k].is_zero for row in constraints[0].rows)
+        if stands or any(not robot.ring.diff(entry, k).is_zero for entry in held):
+            return Skipped(f"the constraints change as {moving} moves: it stands in them")
     braked = _braked(robot)
     if braked:
         return Skipped(f"friction acts on {braked} in this motion, and no motor holds it")
-    return equilibria(robot, forces, D, may_be_held=may_be_held(robot, D))
+    return equilibria(robot, forces, D, *constraints, may_be_held=may_be_held(robot, D))
 
 
 def may_be_held(robot: Robot, D: Matrix) -> bool:

@@ -107,7 +107,7 @@ def _over(matrix: Matrix, divisor: Expr, at: Here) -> Matrix | FractionMatrix:
 
 
 class Multipliers(Struct, frozen=True):
-    """A_c and the forces in the columns that no motor holds, gᵀ as a row, and the h that are 0.
+    """A_c and the forces in the `columns`, from 0, that no motor holds, gᵀ as a row, and the h that are 0.
 
     What is `allowed` tells the rank that A_c has almost everywhere where h is 0.
     """
@@ -116,18 +116,19 @@ class Multipliers(Struct, frozen=True):
     g: Matrix
     h: tuple[Expr, ...]
     allowed: Allowed
+    columns: tuple[int, ...]
 
     @staticmethod
     def of(robot: Robot, columns: Sequence[int], forces: Matrix, A: Matrix, h: Matrix) -> Multipliers:
         """Those of the columns, from 0."""
         row = Matrix.of(robot.ring, [[forces[k, 0] for k in columns]])
         own = part(A, tuple(range(A.shape[0])), tuple(columns))
-        return Multipliers(own, row, h.entries, where_allowed(robot, own, h))
+        return Multipliers(own, row, h.entries, where_allowed(robot, own, h), tuple(columns))
 
     def moved(self, there: Transfer) -> Multipliers:
         """The same in another ring."""
         A, g = (Matrix.of(there.target, (map(there, row) for row in one.rows)) for one in (self.A, self.g))
-        return Multipliers(A, g, tuple(map(there, self.h)), self.allowed)
+        return Multipliers(A, g, tuple(map(there, self.h)), self.allowed, self.columns)
 
     def where_zero(self, factor: Expr) -> Multipliers:
         """The same for parameters of which a factor is 0."""
@@ -135,7 +136,8 @@ class Multipliers(Struct, frozen=True):
         def rest(value: Expr) -> Expr:
             return remainder(value, factor)
 
-        return Multipliers(self.A.map(rest), self.g.map(rest), tuple(map(rest, self.h)), self.allowed)
+        h = tuple(map(rest, self.h))
+        return Multipliers(self.A.map(rest), self.g.map(rest), h, self.allowed, self.columns)
 
     @property
     def rank(self) -> int:
@@ -143,19 +145,21 @@ class Multipliers(Struct, frozen=True):
         return self.allowed.rank
 
     def is_of_energy(self, n: int) -> bool:
-        """Whether an energy decides on stability: all n coordinates are free, all constraints functions."""
+        """Whether an energy decides on stability: all n coordinates are its, all constraints functions."""
         return len(self.A.rows) == len(self.h) and self.A.shape[1] == n
 
     def along(self, second: Matrix, at: Here, signs: ParameterSigns) -> Along | None:
         """The second derivatives of P - λᵀ h along what A_c leaves free, `at` a configuration.
 
-        None where the rows of A_c are dependent, or nothing is free.  `second` are those of P; `at` may
+        None where the rows of A_c are dependent, or nothing is free.  `second` are those of P by all
+        coordinates; `at` may
         bring a factor, the same in all that it is given at once.  The λ follow from columns of A_c of which
         the determinant is never 0, by the `signs`, if there are such.
         """
         ring, (count, n) = self.A.ring, self.A.shape
-        of_h = [[ring.diff(ring.diff(h, i), j) for j in range(n)] for h in self.h for i in range(n)]
-        rows = at(Matrix.of(ring, [*self.A.rows, *self.g.rows, *second.rows, *of_h, [ring.one] * n])).rows
+        of_h = [[ring.diff(ring.diff(h, i), j) for j in self.columns] for h in self.h for i in self.columns]
+        own = part(second, self.columns, self.columns)
+        rows = at(Matrix.of(ring, [*self.A.rows, *self.g.rows, *own.rows, *of_h, [ring.one] * n])).rows
         A, g, of_P = (
             Matrix(ring, lines) for lines in (rows[:count], rows[count : count + 1], rows[count + 1 :])
         )
@@ -185,11 +189,11 @@ class Multipliers(Struct, frozen=True):
             zeros = [factor for one in choice for factor in at(Matrix.column(ring, one)).entries]
             if any(zero.is_number and not zero.is_zero for zero in zeros):
                 continue
-            slopes = [[(f, [ring.diff(f, k) for k in range(self.A.shape[1])]) for f in one] for one in choice]
+            slopes = [[(f, [ring.diff(f, k) for k in self.columns]) for f in one] for one in choice]
             moving = [[own for own in one if not at(Matrix.of(ring, [own[1]])).is_zero] for one in slopes]
             if all(zero.is_zero for zero in zeros) and all(moving):
                 h, A = zip(*(own[0] for own in moving), strict=True)
-                yield Multipliers(Matrix.of(ring, A), self.g, h, Allowed(len(h)))
+                yield Multipliers(Matrix.of(ring, A), self.g, h, Allowed(len(h)), self.columns)
             else:
                 yield None
 

@@ -179,28 +179,18 @@ def multipliers(robot: Robot, forces: Matrix, A: Matrix, h: Matrix) -> Multiplie
     return Multipliers.of(robot, wanted_rows(robot), forces, A, h)
 
 
-def constrained_equilibria(
-    robot: Robot, forces: Matrix, inertia: Matrix, A: Matrix, h: Matrix
-) -> Equilibria | Skipped:
-    """The configurations in which multipliers hold the forces, and h is 0."""
-    held = multipliers(robot, forces, A, h)
-    return equilibria(robot, forces, inertia, held=held) if held.allowed.is_whole else Skipped(NOT_SHOWN)
-
-
 def equilibria(
-    robot: Robot,
-    forces: Matrix,
-    inertia: Matrix,
-    *,
-    held: Multipliers | None = None,
-    may_be_held: bool = False,
+    robot: Robot, forces: Matrix, inertia: Matrix, *constraints: Matrix, may_be_held: bool = False
 ) -> Equilibria | Skipped:
     """The configurations where the forces (n×1) are 0 in every row that no motor holds.
 
     The forces are derivatives of an energy: g(q), or those of steady motion; `may_be_held` is that of
-    `Curvature`.  Where constraints act, they are `held` by these multipliers.  Coordinates
+    `Curvature`.  Where `constraints` act, A_c and h, multipliers hold them, and h is 0.  Coordinates
     may move no body somewhere, by D, the `inertia`: r = 0 of a mass that falls has g = 0, too.
     """
+    held = multipliers(robot, forces, *constraints) if constraints else None
+    if held is not None and not held.allowed.is_whole:
+        return Skipped(NOT_SHOWN)
     wanted = [forces[k, 0] for k in wanted_rows(robot)] if held is None else [*held.zeros(held.rank)]
     if sum(map(len, wanted)) > MOST_TERMS:
         return Skipped(TOO_LONG)
@@ -225,6 +215,7 @@ class _Search:
         self.signs = assumed_signs(robot, self.there)
         self.special, self.of_rank = Special(self.signs), Special(self.signs)
         self.held = held.moved(self.there) if held else None
+        self.has_energy = held is None or held.is_of_energy(robot.n - len(_kept_turning(robot)))
         self.wanted = [*map(self.there, wanted)]
         self.only: list[tuple[Expr, Expr, tuple[Bound, ...]]] = []
         self.left = tuple(combined(robot.ring, wanted, lambda factor: self.special.add(self.there(factor))))
@@ -345,7 +336,7 @@ class _Search:
         return (
             settled.is_whole
             and not self.of_rank.is_open
-            and held.is_of_energy(self.robot.n)
+            and self.has_energy
             and held.leaves_least_energy(self.signs)
             and is_seen(held.h, self.signs)
             and reached is not None
@@ -385,7 +376,7 @@ class _Search:
     ) -> tuple[tuple[Point, ...], ...]:
         """The points of each case, with their stability; none where what is held has no energy."""
         robot, ring = self.robot, self.there.target
-        if self.held is not None and not self.held.is_of_energy(robot.n):
+        if not self.has_energy:
             return tuple(() for _ in exist)
         kept = _kept_turning(robot)
         slopes = (

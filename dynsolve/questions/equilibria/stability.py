@@ -356,12 +356,12 @@ class Curvature(Struct, frozen=True):
         """Where one coordinate is free and the second derivative along Z is 0."""
         if self.held is None or along.free.shape[1] > 1 or not along.without_fractions.is_zero:
             return None
-        ring, Z = self.second.ring, nullspace(self.held.A)
+        ring, Z, columns = self.second.ring, nullspace(self.held.A), self.held.columns
         if (at := here(Z)).is_zero:
             return None
 
         def slope(value: Expr) -> Expr:
-            return ring.dot(Z.entries, [ring.diff(value, k) for k in range(len(ring.names))])
+            return ring.dot(Z.entries, [ring.diff(value, k) for k in columns])
 
         found = _first_derivative(ring.dot(Z.entries, self.held.g.entries), 1, slope, here)
         return replace(found, is_exact=found.is_exact and at == along.free) if found else None

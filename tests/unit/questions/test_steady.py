@@ -156,3 +156,35 @@ def test_two_long_equations_of_a_motion_are_two_lines() -> None:
     told = report(dynsolve.solve(three), Format.TEXT).decode()
     assert "    τ₃ = " in told
     assert "and τ₃" not in told
+
+
+HOOP = """
+model:
+  coordinates: {phi: revolute, r: prismatic, z: prismatic}
+  bodies: [{mass: m, at: [r*cos(phi), r*sin(phi), z]}]
+constraints: [r^2 + z^2 - R^2]
+steady: {phi: W}
+find: [equilibria]
+"""
+
+
+def test_what_constraints_hold_in_a_steady_motion_is_found() -> None:
+    """A bead on a hoop that turns: z = -g/W² where R W² ≥ g, stable where it is there (by hand)."""
+    found = equilibria(HOOP)
+    assert found[""] == [
+        ["g + W**2*z = 0", "r**2 + z**2 - R**2 = 0"],
+        ["r = 0", "z - R = 0"],
+        ["r = 0", "R + z = 0"],
+    ]
+    turned, upper, lower = (one[0] for one in found["_stability"])
+    assert turned == {"stability": "undecided", "stable_if": ["R*W**2 > g"]}
+    assert upper == {"stability": "unstable"}
+    assert lower == {"stability": "undecided", "stable_if": ["g > R*W**2"], "unstable_if": ["R*W**2 > g"]}
+    told = report(dynsolve.solve(HOOP), Format.TEXT).decode()
+    assert "a combination of the rows of 𝐀_c without the\ncolumn of φ" in told
+
+
+def test_a_constraint_that_moves_with_what_is_kept_turning_is_refused() -> None:
+    problem = HOOP.replace("r^2 + z^2 - R^2", "r*cos(phi) - R")
+    why = dynsolve.solve(problem).to_json()["results"]["equilibria"]["skipped"]
+    assert why == "the constraints change as φ moves: it stands in them"
