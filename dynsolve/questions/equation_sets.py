@@ -223,10 +223,10 @@ def starts(robot: Robot, numbers: Mapping[str, float] | None = None) -> Iterator
 
     for found, _ in islice(states_with(robot.ring, assumed), ENOUGH):
         values = {**found, **(numbers or {})}
-        yield values | _moving(robot, values)
+        yield values | moving(robot, values)
 
 
-def _moving(robot: Robot, values: Mapping[str, float]) -> dict[str, float]:
+def moving(robot: Robot, values: Mapping[str, float]) -> dict[str, float]:
     """Rates and accelerations: 0, but for the rates that are held constant."""
     still = {name: 0.0 for q in robot.coordinates for name in (q.velocity, q.acceleration)}
     steady = robot.questions.model.steady

@@ -24,12 +24,13 @@ from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.configurations import NO_VALUE, is_zero
 from dynsolve.derivation.elimination import free_directions, is_positive_definite, rank, solved
 from dynsolve.derivation.reached import CLOSE
+from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.notation.tree import Negative, Node, Product, Sum
 from dynsolve.notation.tree_values import Program, compile_trees
-from dynsolve.questions.equation_sets import starts
+from dynsolve.questions.equation_sets import moving, starts
 from dynsolve.questions.equilibria.balance import STATES, never_zero, table_lengths
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.linear_check import linear_names, verify_linear
@@ -160,11 +161,35 @@ def verify_equilibria(
     are `unknown` nothing is told.  Raises
     VerificationError where an equilibrium is none, one is missing, or its stability is another.
     """
+    programs = [compile_trees(list(case.zeros)) for case in cases]
+    _verify_sets(robot, starts(robot), zeros, cases, holds, unknown)
+    whole = compile_trees([balanced])
+    if isinstance(constraints, MatrixTree) and isinstance(balanced, MatrixTree):
+        columns = wanted_rows(robot)
+        rows = tuple(tuple(row[k] for k in columns) for row in constraints.rows)
+        whole = compile_trees([MatrixTree(tuple(balanced.rows[k] for k in columns)), MatrixTree(rows)])
+    allowed = compile_trees(
+        list(zeros[-len(constraints.rows) :] if isinstance(constraints, MatrixTree) else ())
+    )
+    for program, case in zip(programs, cases, strict=True):
+        for point in case.points:
+            _verify_stability(robot, whole, program, allowed, point)
+
+
+def _verify_sets(
+    robot: Robot,
+    begun: Iterable[dict[str, float]],
+    zeros: Sequence[Node],
+    cases: Sequence[Case],
+    holds: Callable[[Mapping[str, float]], bool],
+    unknown: Sequence[Sequence[Node]],
+) -> None:
+    """Compare the cases with the forces, from the configurations `begun`."""
     forces = compile_trees(list(zeros))
     programs = [compile_trees(list(case.zeros)) for case in cases]
     untold = [compile_trees(list(one)) for one in unknown]
     left_out = [[compile_trees(list(one)) for one in case.excluded] for case in cases]
-    for start in starts(robot):
+    for start in begun:
         for program, without, case in zip(programs, left_out, cases, strict=True):
             at = zero_near(robot, program, start) if case.zeros else start
             if at is not None and not (
@@ -180,17 +205,31 @@ def verify_equilibria(
         is_one = found is not None and holds(found)
         if found is not None and is_one and not _lies_in_any(robot, [*programs, *untold], found):
             raise VerificationError("an equilibrium is missing; this is a fault of dynsolve")
-    whole = compile_trees([balanced])
-    if isinstance(constraints, MatrixTree) and isinstance(balanced, MatrixTree):
-        columns = wanted_rows(robot)
-        rows = tuple(tuple(row[k] for k in columns) for row in constraints.rows)
-        whole = compile_trees([MatrixTree(tuple(balanced.rows[k] for k in columns)), MatrixTree(rows)])
-    allowed = compile_trees(
-        list(zeros[-len(constraints.rows) :] if isinstance(constraints, MatrixTree) else ())
-    )
-    for program, case in zip(programs, cases, strict=True):
-        for point in case.points:
-            _verify_stability(robot, whole, program, allowed, point)
+
+
+def verify_special(
+    robot: Robot,
+    shown: EquilibriaForms,
+    found: Equilibria,
+    zeros: Sequence[Node],
+    holds: Callable[[Mapping[str, float]], bool],
+) -> None:
+    """Compare what is told for special parameters with the forces there, but what is singular."""
+    assumed = [bound.value for bound in robot.questions.model.assumed]
+    for special in found.special:
+        if special.cases is None or special.needs or found.singular:
+            continue
+        factor = compile_trees([shown.condition(Condition(special.factor))])
+        there = (zero_along(list(robot.parameters), factor, start) for start in starts(robot))
+        begun = [
+            at | moving(robot, at)
+            for at in there
+            if at is not None
+            and all(at[name] > _NEAR for name in robot.parameters)
+            and all(evaluate(value, at) > 0 for value in assumed)
+        ]
+        cases = [Case(zeros_there, ()) for zeros_there in shown.special_cases(special)]
+        _verify_sets(robot, begun, zeros, cases, holds, ())
 
 
 def verify_excluded(
@@ -403,6 +442,7 @@ def verify(held: Held) -> None:
         A = forms("Ac") if robot.questions.constraints else None
         unknown = [[*map(shown.condition, case)] for case, _ in values["equilibria"].singular]
         verify_equilibria(robot, balanced, zeros, [Case(*case) for case in told], holds, A, unknown)
+        verify_special(robot, shown, values["equilibria"], zeros, holds)
         programs = [compile_trees(list(case)) for case in shown.equilibria]
         for k, sets in enumerate(shown.excluded):
             others = [*programs[:k], *programs[k + 1 :]]

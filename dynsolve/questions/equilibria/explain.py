@@ -512,20 +512,22 @@ def _special(shown: EquilibriaForms, case: SpecialCase) -> Iterator[Prose]:
 
 
 def _of_special_forces(shown: EquilibriaForms, case: SpecialCase, where: Node) -> Prose:
-    if case.forces is None:
+    if case.cases is None:
         return say("Where {where}, there may be others.", where=where)
-    forces = shown.special_forces(case)
-    if forces is None:
+    if not case.cases:
         return say("Where {where}, there is no equilibrium.", where=where)
+    sets = zip(case.cases, shown.special_cases(case), strict=True)
+    told = [as_row(listed(shown.for_special.relations(*one))) for one in sets]
     needs = shown.special_needs(case)
     only = say(" if {needs}, and none is if not", needs=as_row(listed(needs))) if needs else ""
-    if not forces:
+    if () in case.cases:
         return say("Where {where}, every configuration is an equilibrium{only}.", where=where, only=only)
     exist = side_by_side([*map(shown.inequality, case.exist)]) if case.exist else None
+    zero = tuple(part for k, one in enumerate(told) for part in ([", or where "] * (k > 0) + [one]))
     text = "Where {where}, the equilibria are where {zero}{exist}{only}."
     there = say(", which has solutions where {exist}", exist=exist) if exist else ""
     only = say(" if {needs}, and there is none if not", needs=as_row(listed(needs))) if needs else ""
-    return say(text, where=where, zero=vanishing(forces), exist=there, only=only)
+    return say(text, where=where, zero=zero, exist=there, only=only)
 
 
 def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> Step:

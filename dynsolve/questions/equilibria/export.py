@@ -76,10 +76,9 @@ def _special(one: SpecialCase, shown: EquilibriaForms, printer: PythonPrinter) -
     where = {"where": plain_inequality(shown.comparison(one.factor, "="), printer)}
     if one.excluded:
         return {**where, "equilibria_except": _sets(shown.special_exceptions(one), printer)}
-    if one.forces is None:
+    if one.cases is None:
         return where
-    forces = shown.special_forces(one)
-    equations = [] if forces is None else [[f"{printer.text(force)} = 0" for force in forces]]
+    equations = _sets(shown.special_cases(one), printer)
     needs = [plain_inequality(relation, printer) for relation in shown.special_needs(one)]
     exist = [*needs, *inequalities(shown, printer, one.exist)]
     return {**where, "equilibria": equations, **({"exist": exist} if exist else {})}

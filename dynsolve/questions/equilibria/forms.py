@@ -7,7 +7,7 @@ from functools import cached_property
 from math import gcd, lcm
 
 from dynsolve.algebra.angles import Angle, angle_node
-from dynsolve.algebra.factors import is_positive, ratio, trig_factors
+from dynsolve.algebra.factors import ratio, trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
@@ -231,16 +231,18 @@ class EquilibriaForms(SetForms):
         special = () if isinstance(found, Skipped) else found.special
         return frozenset(factor for one in special for factor, _ in trig_factors(one.factor))
 
+    @property
+    def for_special(self) -> EquilibriaForms:
+        """The same where it is not told what is other than 0."""
+        return _SpecialForms(self.robot, self.values)
+
     def special_exceptions(self, case: SpecialCase) -> tuple[tuple[Node, ...], ...]:
         """The sets that are no equilibria for special parameters."""
         return tuple(tuple(map(self.condition, one)) for one in case.excluded)
 
-    def special_forces(self, case: SpecialCase) -> tuple[Node, ...] | None:
-        """What must be 0 for special parameters, without what never is; None where it cannot be."""
-        assert case.forces is not None
-        if any(is_positive(force) or is_positive(-force) for force in case.forces):
-            return None
-        return tuple(dict.fromkeys(map(self.vanishing, case.forces)))
+    def special_cases(self, case: SpecialCase) -> tuple[tuple[Node, ...], ...]:
+        """The alternatives of what is 0 for special parameters."""
+        return tuple(tuple(map(self.condition, one)) for one in case.cases or ())
 
     def special_needs(self, case: SpecialCase) -> tuple[Relation, ...]:
         """Equations between parameters alone that must hold, too, for there to be equilibria."""
@@ -253,3 +255,7 @@ class EquilibriaForms(SetForms):
         if isinstance(found, Skipped):
             return ()
         return tuple(map(self.compactor(self.robot.ring).form, found))
+
+
+class _SpecialForms(EquilibriaForms):
+    _nonzero = frozenset()

@@ -22,7 +22,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from itertools import permutations, product
+from functools import partial
+from itertools import chain, permutations, product
 from math import atan2, degrees, isclose, prod
 from typing import Any
 
@@ -89,25 +90,20 @@ TOO_LONG = "gravity and springs are too long to be taken apart into factors"
 
 
 class SpecialCase(Struct, frozen=True):
-    """A factor of parameters alone, and the expressions that must be 0 in an equilibrium where it is 0.
+    """A factor of parameters alone, and the alternatives of what is 0 in an equilibrium where it is 0.
 
     `needs` are expressions of parameters alone that must be 0 for there to be one, `exist` inequalities that
-    must hold; without forces it is not known what is one.  Where
+    must hold; without `cases` it is not known what is one.  Where
     only the rank of A_c is another, the equilibria are those for all parameters without the sets that are
     `excluded`, if these are known.
     """
 
     factor: Expr
-    forces: tuple[Expr, ...] | None
+    cases: tuple[Alternative, ...] | None
     exist: tuple[Bound, ...] = ()
     is_of_rank: bool = False
     excluded: tuple[Alternative, ...] = ()
     needs: tuple[Expr, ...] = ()
-
-    @property
-    def is_possible(self) -> bool:
-        """Whether there may be an equilibrium."""
-        return self.forces is None or not any(force.is_number for force in self.forces)
 
     @property
     def is_known(self) -> bool:
@@ -262,8 +258,8 @@ class _Search:
             exist=tuple(inside.values()),
             special=tuple(
                 case
-                for case in self._special_cases(short, settled)
-                if case.is_possible or not self._is_left_out(case.factor, inside.values())
+                for case in self._special_cases(short, settled, bool(singular))
+                if case.cases != () or not self._is_left_out(case.factor, inside.values())
             ),
             may_be_others=special.is_open or self.of_rank.is_open or len(short) < len(special.factors),
             excluded=tuple(excluded.get(one, ()) for one in exist),
@@ -367,9 +363,10 @@ class _Search:
         self, cases: Iterable[Alternative], forces: Matrix, inertia: Matrix
     ) -> dict[Alternative, tuple[int, ...]]:
         """Cases in which coordinates describe nothing, and these."""
-        mass, free, kept = inertia.map(self.there), wanted_rows(self.robot), _kept_turning(self.robot)
+        free, kept = wanted_rows(self.robot), _kept_turning(self.robot)
         pulls = [self.there(force) for k, force in enumerate(forces.entries) if k not in kept]
-        return {one: idle for one in cases if (idle := _idle(mass, pulls, one, free))}
+        self.idle = partial(_idle, inertia.map(self.there), pulls, free)
+        return {one: idle for one in cases if (idle := self.idle(one))}
 
     def _points(
         self, exist: Mapping[Alternative, tuple[Bound, ...]], forces: Matrix, may_be_held: bool
@@ -409,13 +406,39 @@ class _Search:
         rates = (rate for pair in ring.pairs for _, rate in pair.angle.terms)
         return not is_wound and all(rate.denominator == 1 for rate in rates)
 
-    def _special_cases(self, factors: Iterable[Expr], settled: Settled | None) -> Iterator[SpecialCase]:
-        """What is known where one of these factors is 0, and where one of the rank of A_c alone is."""
+    def _special_cases(
+        self, factors: Iterable[Expr], settled: Settled | None, has_singular: bool
+    ) -> Iterator[SpecialCase]:
+        """What is known where one of these factors is 0, and where one of the rank of A_c alone is.
+
+        That something is singular is told for them, too, if the case `has_singular` configurations.
+        """
         for factor in factors:
-            yield _special_case(factor, self.wanted, self.held, self.signs)
+            case = _special_case(factor, self.wanted, self.held, self.signs)
+            for forces in case.cases or ():
+                case = self._taken_apart(case, forces, has_singular)
+            yield case
         if settled and self.held:
             moved = (factor for factor in self.of_rank.factors if factor not in self.special.factors)
             yield from filter(None, (_of_rank(factor, self.held, settled, self.signs) for factor in moved))
+
+    def _taken_apart(self, case: SpecialCase, forces: Alternative, has_singular: bool) -> SpecialCase:
+        """The same with alternatives for what is 0, if these are so for all such parameters."""
+        special, zeros = Special(self.signs), [one.expr for one in forces]
+        try:
+            found = common_zeros(zeros, special, keeps_products=True)
+        except TooLong:
+            return case
+        heavy = tuple(one for one in found if not self.idle(one))
+        exist = {one: conditions([own.expr for own in one], self.signs) for one in heavy}
+        there = {one: bounds for one, bounds in exist.items() if bounds is not None}
+        is_known = not special.is_open and all(
+            never_together((one, case.factor), case.factor.ring.one) for one in special.factors
+        )
+        is_told = len(heavy) == len(found) or has_singular
+        if not is_known or not is_told or (len(there) > 1 and any(there.values())):
+            return case
+        return replace(case, cases=tuple(there), exist=tuple(chain(*there.values())))
 
 
 def _only_zero(value: Expr, signs: ParameterSigns) -> tuple[Expr, Expr, tuple[Bound, ...]] | None:
@@ -538,7 +561,7 @@ def _ring_of_sums(ring: Ring, case: Alternative) -> Ring:
     return ring
 
 
-def _idle(inertia: Matrix, pulls: Sequence[Expr], case: Alternative, free: Sequence[int]) -> tuple[int, ...]:
+def _idle(inertia: Matrix, pulls: Sequence[Expr], free: Sequence[int], case: Alternative) -> tuple[int, ...]:
     """Those of the `free` coordinates that move no body in a case, as an angle at r = 0.
 
     But for those that it leaves free, where all that pulls is 0: this is so in whatever direction the bodies
@@ -623,7 +646,7 @@ def _is_unknown(factor: Expr, held: Multipliers | None, signs: ParameterSigns) -
 def _special_case(
     factor: Expr, zeros: Sequence[Expr], held: Multipliers | None, signs: ParameterSigns
 ) -> SpecialCase:
-    """What is known where a factor is 0; nothing where with this the rows of A_c may be dependent."""
+    """What is 0 where a factor is; nothing is known where with this the rows of A_c may be dependent."""
     ends = held.at_ends(factor, signs) if held else ()
     if not ends and _is_unknown(factor, held, signs):
         return SpecialCase(factor, None)
@@ -633,8 +656,8 @@ def _special_case(
     needs = dict.fromkeys(prod(signs.open_factors(row), start=ring.one) for row in left if row not in forces)
     exist = conditions(forces, signs)
     if exist is None or ring.one in needs:
-        return SpecialCase(factor, (ring.one,))
-    return SpecialCase(factor, forces, exist, needs=tuple(needs))
+        return SpecialCase(factor, ())
+    return SpecialCase(factor, (tuple(map(Condition, forces)),), exist, needs=tuple(needs))
 
 
 def _of_rank(factor: Expr, held: Multipliers, settled: Settled, signs: ParameterSigns) -> SpecialCase | None:

@@ -188,3 +188,29 @@ def test_a_constraint_that_moves_with_what_is_kept_turning_is_refused() -> None:
     problem = HOOP.replace("r^2 + z^2 - R^2", "r*cos(phi) - R")
     why = dynsolve.solve(problem).to_json()["results"]["equilibria"]["skipped"]
     assert why == "the constraints change as φ moves: it stands in them"
+
+
+SPIN = """
+dh: [{theta: phi*, d: h, alpha: 90deg}, {theta: th*, alpha: 90deg}, {d: r*}]
+masses: [{mass: m, link: 3, center: origin}]
+springs: [{stiffness: k, of: r, rest: r0}]
+steady: {phi: W}
+find: [equilibria]
+"""
+
+
+def test_the_equilibria_of_special_parameters_are_solved_too() -> None:
+    """With m W² = k, r cos θ = m g/k would leave k r₀ = 0 (by hand); two equal links may be folded."""
+    assert equilibria(SPIN)["_special"] == [
+        {"where": "m*W**2 = k", "equilibria": [["sin(th) = 0", "m*g*cos(th) - k*(r - r0) = 0"]]}
+    ]
+    level = (
+        "dh: [{theta: phi*, d: h, alpha: 90deg}, {theta: q2*, a: a}, {theta: q3*, a: b}]\n"
+        "masses: [{mass: m, link: 3}]\nconstraints: [tip.z - h]\nsteady: {phi: W}\nfind: [equilibria]\n"
+    )
+    folded = [["sin(q3) = 0", "sin(q2) = 0"], ["1 + cos(q3) = 0"]]
+    assert equilibria(level)["_special"] == [{"where": "a = b", "equilibria": folded}]
+    told = report(dynsolve.solve(level), Format.TEXT).decode()
+    assert "Where a = b, the equilibria are where sin(q₃) = 0 and sin(q₂) = 0, or where q₃ = 180°." in (
+        " ".join(told.split())
+    )
