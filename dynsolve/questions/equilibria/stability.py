@@ -392,7 +392,11 @@ class Curvature(Struct, frozen=True):
         """
 
         def minor(chosen: tuple[int, ...]) -> Expr:
-            return here(Matrix.of(second.ring, [[determinant(part(second, chosen, chosen))]]))[0, 0]
+            plain = Matrix.of(second.ring, [[determinant(part(second, chosen, chosen))]])
+            apart, found = _put(plain, values)[0, 0], here(plain)[0, 0]
+            factors, left = ([*signs.open_factors(one)] for one in (apart, found))
+            is_clearer = len(factors) > len(left) and any(map(plain.ring.depends_on_coordinates, left))
+            return apart if is_clearer else found  # the sign of a product is that of its factors
 
         neutral = tuple(k for k in free if all(entry.is_zero for entry in second.rows[k]))
         rest = tuple(k for k in range(len(second.rows)) if k not in neutral)
@@ -420,7 +424,7 @@ class Curvature(Struct, frozen=True):
             return Point(values, Stability.UNDECIDED, neutral, is_open=True)
         conditions = tuple(map(Bound, _simplest(left, signs)))
         if not moves:
-            conditions = independent([Bound(sign) for sign in _least(left, signs)], signs.assumed)
+            conditions = independent(conditions, signs.assumed)
         falls = bool(conditions) and not self.may_be_held
         inside = self.signs.beside(*conditions)
         apart = tuple(factor for factor in nonzero if any(inside.open_factors(factor)))
@@ -432,10 +436,13 @@ class Curvature(Struct, frozen=True):
 
 
 def _simplest(left: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
-    """What is to be positive: x and y where a x + b y and x y are, and nothing that is another and more."""
+    """What is to be positive: x and y where x y is and they are not both negative, as a x + b y is positive.
+
+    And nothing that is another and more.
+    """
     found = list(dict.fromkeys(left))
-    if len(found) == 2 and len(factors := [*signs.open_factors(found[1])]) == 2:
-        mixed, product = found
+    if 0 < len(found) < 3 and len(factors := [*signs.open_factors(found[-1])]) == 2:
+        *mixed, product = found
         signed = permutations([*factors, *(-factor for factor in factors)], 2)
         pairs = ([x, y] for x, y in signed if _are_positive_with(x, y, mixed, product, signs))
         found = next(pairs, found)
@@ -444,10 +451,14 @@ def _simplest(left: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
     ]
 
 
-def _are_positive_with(x: Expr, y: Expr, mixed: Expr, product: Expr, signs: ParameterSigns) -> bool:
-    """Whether a x + b y and x y are positive where x and y are, and nowhere else: with a, b > 0."""
-    a, rest = (Expr(x.ring, part) for part in divmod(mixed.poly, x.poly))
-    parts = (a, trig_quotient(rest, y), trig_quotient(product, x * y))
+def _are_positive_with(x: Expr, y: Expr, mixed: Sequence[Expr], product: Expr, signs: ParameterSigns) -> bool:
+    """Whether `mixed`, a x + b y with a, b > 0, and x y are positive where x and y are, and nowhere else.
+
+    Without it, whether y = c - a x with c > 0.
+    """
+    a, rest = (Expr(x.ring, part) for part in divmod((*mixed, y)[0].poly, x.poly))
+    weights = (a, trig_quotient(rest, y)) if mixed else (-a, rest)
+    parts = (*weights, trig_quotient(product, x * y))
     return all(part is not None and signs.is_positive(part) for part in parts)
 
 
@@ -520,15 +531,6 @@ def _is_of_squares(value: Expr) -> bool:
     return all(factor > 0 for factor in value.poly.coeffs()) and not any(
         exponents[k] % 2 for exponents in value.poly.monoms() for k in signed
     )
-
-
-def _least(values: Sequence[Expr], signs: ParameterSigns) -> list[Expr]:
-    """The values without those that are another one and something positive."""
-    return [
-        value
-        for value in values
-        if not any(signs.is_positive(value - other) for other in values if other != value)
-    ]
 
 
 def _there(matrix: Matrix, values: Values, zeros: Sequence[Expr]) -> Matrix:

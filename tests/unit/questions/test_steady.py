@@ -214,3 +214,9 @@ def test_the_equilibria_of_special_parameters_are_solved_too() -> None:
     assert "Where a = b, the equilibria are where sin(q₃) = 0 and sin(q₂) = 0, or where q₃ = 180°." in (
         " ".join(told.split())
     )
+
+
+def test_of_a_product_that_has_to_be_positive_both_factors_are_if_not_both_can_be_negative() -> None:
+    """Drawn in by gravity, above: r = r₀ - m g/k is negative there; stable below m g k/(m W²) (by hand)."""
+    above = equilibria(SPIN)["_stability"][1][-1]
+    assert above["stable_if"] == ["m*g > k*r0", "k*(g + W**2*r0) > m*g*W**2"]
