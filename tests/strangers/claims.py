@@ -29,7 +29,7 @@ WORDS = re.compile(
     r"\b(?:ranks?|stretched|bent|folded|constant|mov(?:es?|ing)|depends?|minim(?:um|a)|maxim(?:um|a)|saddle"
     r"|(?:un)?stable|along|negative|positive|conserved|parallel|perpendicular|always|never|zero|vanish(?:es)?"
     r"|independent|same|singular|occurs?|appears?|diagonal"
-    r"|too few)\b",
+    r"|too few|all this holds where)\b",
     re.IGNORECASE,
 )
 
@@ -797,6 +797,18 @@ def _holds_where_rank(m: Mechanism, s: Sentence) -> bool:
         if rank(np.hstack([m.value(node, p) for node in s.vectors()])) == len(s.vectors()):
             return False
     return rank(s.jacobian(m, m.point())) == int(s.words[0])
+
+
+@says("All this holds where ....")
+def _holds_where(m: Mechanism, s: Sentence) -> bool:
+    """Where what is joined by or is 0 together, or another is, the rank is less, or vectors are dependent."""
+    full, vectors = rank(s.jacobian(m, m.point())), s.vectors()
+    for zeros in [s.formulas] if " or " in s.text else [(one,) for one in s.formulas]:
+        p = m.where(tree.Row(tuple(tree.equation(one.parts[0], tree.ZERO) for one in zeros)))
+        independent = rank(np.hstack([m.value(node, p) for node in vectors])) if vectors else 0
+        if rank(s.jacobian(m, p)) == full and independent == len(vectors):
+            return False
+    return True
 
 
 @says("The norm adds squares of lengths to squares of angles, so that it depends on the unit of length.")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from itertools import chain, combinations
 from math import prod
 
@@ -12,7 +13,12 @@ from dynsolve.algebra.factors import is_never_zero, trig_factors, trig_quotient
 from dynsolve.algebra.linear_systems import rank_parts
 from dynsolve.algebra.matrix import AtState, Matrix, determinant, minors, work
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.sampling import Transfer
 from dynsolve.algebra.spaces import dependent_where
+from dynsolve.derivation.elimination import ParameterSigns
+from dynsolve.derivation.existence import coordinates_in
+from dynsolve.derivation.search_ring import search_ring
+from dynsolve.derivation.singular.sets import Special, TooLong, common_zeros
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.writing import is_small, listed
@@ -20,24 +26,28 @@ from dynsolve.notation.tree import ONE, ZERO, Node, Relation, Words
 from dynsolve.questions.rates.derive import MOST_PRODUCTS, squared
 from dynsolve.questions.set_forms import SetForms, may_vanish
 
+MOST_TERMS = 200
+"""Minors with more terms together are not taken apart."""
+
 
 class Holding(Struct, frozen=True):
     """What is so where something holds: nothing of what is so in every configuration.
 
-    The `rank` is 0 where it is always the same; it is what it is where `is_full`, if that can be told.
+    The `rank` is 0 where it is always the same; it is what it is where one of `is_full` holds, if that can be
+    told.
     The vectors of a space are independent there where `apart` is not 0; words, where that is too long.
     """
 
     rank: int = 0
-    is_full: Relation | None = None
+    is_full: tuple[Relation, ...] = ()
     apart: Node | None = None
 
     @property
     def prose(self) -> Prose:
         """All this holds where the rank of J is 2 and s₂ ≠ 0."""
-        conditions: list[Prose | Node] = []
-        if self.is_full is not None:
-            conditions.append(self.is_full)
+        conditions: list[Prose | Node | str] = []
+        if self.is_full and (len(self.is_full) == 1 or self.apart is None):
+            conditions.append(listed(self.is_full, "or"))
         elif self.rank:
             conditions.append(say("the rank of $𝐉_r$ is {rank}", rank=self.rank))
         if self.apart is not None:
@@ -62,9 +72,27 @@ def of_rates(forms: SetForms) -> Holding:
         if may_vanish(shared) == J.ring.one:
             return Holding()
         is_full = forms.comparison(may_vanish(shared), "≠")
-        return Holding(rank, is_full if is_small(is_full) else None)
+        return Holding(rank, (is_full,) if is_small(is_full) else ())
     is_fixed = any(map(is_never_zero, chain(_sizes(J, rank), _sizes(J.T, rank))))
-    return Holding(0 if is_fixed else rank)
+    return Holding() if is_fixed else Holding(rank, _one_of(forms, found))
+
+
+def _one_of(forms: SetForms, values: Sequence[Expr]) -> tuple[Relation, ...]:
+    """What is not 0, one or the other, where not all values are, if that is told by so few."""
+    if sum(map(len, values)) > MOST_TERMS:
+        return ()
+    there, special = (
+        Transfer(forms.robot.ring, search_ring(forms.robot.ring, (), {})),
+        Special(ParameterSigns()),
+    )
+    with suppress(TooLong):
+        cases = common_zeros([*map(there, values)], special)
+        if len(cases) == 1 and special.is_empty:
+            names = there.target.names
+            case = sorted(cases[0], key=lambda one: [*map(names.index, coordinates_in(one.expr))])
+            found = tuple(Relation((forms.condition(one), ZERO), ("≠",)) for one in case)
+            return found if is_small(*found) else ()
+    return ()
 
 
 def of_space(forms: SetForms, name: str) -> Holding:
