@@ -17,12 +17,13 @@ from dynsolve.algebra.angles import Angle, name_alone, names_of
 from dynsolve.algebra.fourier import Multiples, fourier_form, positive
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.linear_systems import part
+from dynsolve.algebra.linear_systems import part, rank_parts
 from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import with_symbols
 from dynsolve.algebra.sampling import Transfer
+from dynsolve.algebra.spaces import nullspace
 from dynsolve.derivation.elimination import ParameterSigns, rank, turn_of
 
 DEGREES = {(0, 1): 0, (1, 0): 90, (0, -1): 180, (-1, 0): 270}
@@ -262,12 +263,13 @@ def has_least_energy(forces: Sequence[Expr], signs: ParameterSigns) -> bool:
     """Whether an energy whose derivatives by all coordinates these are is least somewhere.
 
     It is ½ uᵀ K u and less, which is linear in u at most, periodic in other angles: with a K that is positive
-    definite, of all lengths and of what stands outside of sines and cosines, it grows beyond all bounds.
+    definite, of all lengths and of what stands outside of sines and cosines, it grows beyond all bounds; but
+    along whole numbers of turns, of which neither K nor what is linear has any part.
     """
     ring = forces[0].ring
     places, known = range(len(ring.names)), [_swings(force, linear=True) for force in forces]
     atoms = [(atom, rate) for pair in _turning(ring) for atom, rate in pair.angle.terms]
-    if not all(known) or any(name_alone(atom) not in ring.names for atom, _ in atoms):
+    if None in known or any(name_alone(atom) not in ring.names for atom, _ in atoms):
         return False
     means = [_constant(swings or {}, ring) for swings in known]
     K = [[ring.diff(mean, k) for k in places] for mean in means]
@@ -279,8 +281,17 @@ def has_least_energy(forces: Sequence[Expr], signs: ParameterSigns) -> bool:
         if kinds[name] == "prismatic" or name in outside or not means[k].is_zero
     ]
     stiff = Matrix.of(ring, ([K[i][j] for j in growing] for i in growing))
-    firsts = [tuple(range(size)) for size in range(1, len(growing) + 1)]
-    return all(signs.is_positive(determinant(part(stiff, first, first))) for first in firsts)
+    firsts = [tuple(range(size)) for size in range(1, rank_parts(stiff).rank + 1)]
+    turns = nullspace(stiff).T.rows if len(firsts) < len(growing) else ()
+    is_still = all(
+        ring.dot(turn, [means[k] for k in growing]).is_zero
+        and all(
+            x.is_zero or (x.is_number and kinds[ring.names[k]] == "revolute")
+            for x, k in zip(turn, growing, strict=True)
+        )
+        for turn in turns
+    )
+    return is_still and all(signs.is_positive(determinant(part(stiff, first, first))) for first in firsts)
 
 
 def rests(values: Sequence[Expr]) -> Iterator[Pose]:
@@ -377,9 +388,24 @@ def without_ends(
 def _weakest(found: Sequence[tuple[Bound, ...]], signs: ParameterSigns) -> tuple[Bound, ...]:
     """Those of several conditions, of which one is enough, that follow from each of them."""
     for one in found:
-        if all(bound in other or signs.implies(bound, other) for other in found for bound in one):
+        if all(
+            bound in other
+            or signs.implies(bound, other)
+            or any(_is_of_squares(bound, own, signs) for own in other)
+            for other in found
+            for bound in one
+        ):
             return one
     return ()
+
+
+def _is_of_squares(bound: Bound, other: Bound, signs: ParameterSigns) -> bool:
+    """Whether x ≥ y follows as x² - y² ≥ 0 does, with sums of positive terms x and y: W² (a + b) ≥ g."""
+    value = bound.value
+    positive = Expr(
+        value.ring, value.ring.ctx.from_dict({e: abs(n) for e, n in value.poly.to_dict().items()})
+    )
+    return signs.is_positive(positive) and signs.is_positive(value * positive - other.value)
 
 
 def fourier_parts(expr: Expr, pairs: Iterable[tuple[int, int]]) -> Swings:

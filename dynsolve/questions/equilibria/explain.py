@@ -275,7 +275,7 @@ def _of_cases(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterat
             yield from _in_numbers(shown, value)
         if found.has_least:
             yield (
-                "The potential energy grows beyond all bounds with the coordinates in which it is not "
+                "The potential energy grows beyond all bounds in every direction in which it is not "
                 "periodic, so that it is least somewhere: this always has solutions.",
             )
         yield from shown.existence("equilibria", found.exist, found.is_seen)

@@ -2072,3 +2072,18 @@ def test_a_minor_that_is_a_product_is_left_one_where_equations_make_it_longer() 
         "stable_if": ["sin(q1 + q2) < 0", "sin(q1) < 0"],
         "unstable_if": ["sin(q1 + q2) > 0", "sin(q1) > 0"],
     }
+
+
+def test_an_energy_that_a_whole_turn_of_all_leaves_as_it_is_is_least_somewhere() -> None:
+    """Two weights on a shaft with a spring between them: both may turn once more (by hand)."""
+    tree = (
+        "dh: [{theta: p1*, d: h, alpha: 90deg}, {theta: p2*, a: a}, {theta: p3*, a: b, from: 1}]\n"
+        "masses: [{mass: m, link: 2}, {mass: m, link: 3}]\nfind: [equilibria]\n"
+    )
+    between = f"{tree}springs: [{{stiffness: k, of: p2 - p3, rest: 90deg}}]\n"
+    told = " ".join(report(dynsolve.solve(between), Format.TEXT).decode().split())
+    assert "grows beyond all bounds in every direction in which it is not periodic" in told
+    driven = between.replace("p2 - p3, rest: 90deg", "2*p2 - 3*p3")
+    assert "this always has solutions" in report(dynsolve.solve(driven), Format.TEXT).decode().replace(
+        "\n", " "
+    )

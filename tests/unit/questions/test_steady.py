@@ -220,3 +220,12 @@ def test_of_a_product_that_has_to_be_positive_both_factors_are_if_not_both_can_b
     """Drawn in by gravity, above: r = r₀ - m g/k is negative there; stable below m g k/(m W²) (by hand)."""
     above = equilibria(SPIN)["_stability"][1][-1]
     assert above["stable_if"] == ["m*g > k*r0", "k*(g + W**2*r0) > m*g*W**2"]
+
+
+def test_a_case_is_there_where_the_weaker_of_two_conditions_holds() -> None:
+    """Straight, W² (a + b) ≥ g, or folded, W² |a - b| ≥ g, of which the first follows (by hand)."""
+    two = (
+        "dh: [{theta: phi*, d: h, alpha: 90deg}, {theta: q2*, a: a}, {theta: q3*, a: b}]\n"
+        "masses: [{mass: m, link: 3}]\nsteady: {phi: W}\nfind: [equilibria]\n"
+    )
+    assert equilibria(two)["_exist"] == [["W**2*(a + b) >= g"], []]
