@@ -15,6 +15,7 @@ a vector of rational rates here; the eliminations are FLINT's.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from math import lcm, pi, prod
 from typing import Self
@@ -214,6 +215,14 @@ def angle_node(angle: Angle, coordinates: Sequence[str] = ()) -> Node:
         constant = Degrees(abs(angle.degrees.numerator), angle.degrees.denominator)
         terms.append(negated(constant) if angle.degrees < 0 else constant)
     return total(terms)
+
+
+def in_degrees(value: Node) -> Node:
+    """90° for π/2, as angles are given; all else as it is."""
+    with suppress(AlgebraError):
+        angle = angle_from_tree(value)
+        return angle_node(angle) if angle.degrees and not angle.terms else value
+    return value
 
 
 # The symbols, angles, roots and denominators that a ring needs for given formulas

@@ -6,18 +6,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import suppress
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.angles import angle_from_tree, angle_node
+from dynsolve.algebra.angles import in_degrees
 from dynsolve.algebra.matrix import needed_roots
 from dynsolve.derivation.graph import Derivation, Skipped, known
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import AlgebraError, ProblemError, VerificationError, warn_left_out
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.python import to_python
-from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.owners import asked_stages
@@ -81,7 +79,7 @@ def with_reached_state(problem: Problem) -> Problem:
     """
     robot = problem.robot
     one = _within_limits(problem)
-    state = State(tuple((name, 0, _in_degrees(one.formulas[name])) for name in robot.ring.names))
+    state = State(tuple((name, 0, in_degrees(one.formulas[name])) for name in robot.ring.names))
     try:
         needed = needed_roots(robot.ring, state.by_symbol)
     except AlgebraError:
@@ -92,14 +90,6 @@ def with_reached_state(problem: Problem) -> Problem:
         ) from None
     questions = replace(robot.questions, state=state)
     return replace(problem, robot=robot_with(replace(robot, questions=questions), {}, needed))
-
-
-def _in_degrees(value: Node) -> Node:
-    """90° for π/2, as angles are given; all else as it is."""
-    with suppress(AlgebraError):
-        angle = angle_from_tree(value)
-        return angle_node(angle) if angle.degrees and not angle.terms else value
-    return value
 
 
 def _within_limits(problem: Problem) -> Configuration:

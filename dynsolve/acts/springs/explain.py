@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dynsolve.acts.springs.act import Spring
+from dynsolve.algebra.angles import in_degrees
 from dynsolve.document import Prose
 from dynsolve.explain.actions import half_square
 from dynsolve.explain.context import Context
@@ -22,9 +23,10 @@ def given(forms: Forms, spring: Stored) -> Prose:
     """A spring of stiffness k is at rest at q₁ = δ."""
     if not isinstance(spring, Spring):
         return ("A spring has the potential energy ", forms.of(spring.energy), ".")
-    stiffness, rest, _ = (measured(forms.of(one.value), one.unit) for one in spring.parameters(forms.robot))
-    position = equation(along(spring.of, forms.of), rest)
-    return ("A spring of stiffness ", stiffness, " is at rest at ", position, ".")
+    stiffness, rest, _ = ((forms.of(one.value), one.unit) for one in spring.parameters(forms.robot))
+    at = in_degrees(rest[0])
+    position = equation(along(spring.of, forms.of), measured(*rest) if at == rest[0] else at)
+    return ("A spring of stiffness ", measured(*stiffness), " is at rest at ", position, ".")
 
 
 def why(springs: Sequence[Stored]) -> str:

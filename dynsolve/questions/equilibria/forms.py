@@ -6,7 +6,9 @@ from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm
 
-from dynsolve.algebra.angles import Angle, angle_node
+from msgspec.structs import replace
+
+from dynsolve.algebra.angles import Angle, angle_node, in_degrees
 from dynsolve.algebra.factors import ratio, trig_factors
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.ring import Expr
@@ -121,7 +123,10 @@ class EquilibriaForms(SetForms):
             ):
                 found.append((q.name, rest, factor))
         ways = sorted(found, key=lambda one: (one[0] in others, not one[2].is_number))
-        return next((self._quotient(Symbol(name), -rest, factor) for name, rest, factor in ways), None)
+        solved = next((self._quotient(Symbol(name), -rest, factor) for name, rest, factor in ways), None)
+        if isinstance(solved, Relation) and (ways[0][0], "revolute") in ring.coordinates:
+            return replace(solved, parts=(solved.parts[0], in_degrees(solved.parts[1])))
+        return solved
 
     def _square(self, condition: Condition) -> Node | None:
         """x² = n/m where m x² = n, and m is not 0."""

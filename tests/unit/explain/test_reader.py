@@ -527,7 +527,7 @@ def test_a_part_of_a_turn_is_a_fraction_among_decimals() -> None:
         "gravity: none\ndh: [{theta: q*, a: 0.5}]\nmasses: [{mass: 2, link: 1}]\n"
         "springs: [{stiffness: 20, of: q, rest: 30deg}]\nfind: [tau]\n"
     )
-    assert "at rest at q = π/6" in shown and "10(q - π/6)²" in shown and "τ₁ = 0.5 q̈ + 20(q - π/6)" in shown
+    assert "at rest at q = 30°" in shown and "10(q - π/6)²" in shown and "τ₁ = 0.5 q̈ + 20(q - π/6)" in shown
 
 
 def test_sums_of_rates_are_multiplied_out_where_some_stood() -> None:

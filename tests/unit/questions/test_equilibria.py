@@ -1280,7 +1280,7 @@ def test_that_there_are_solutions_for_all_parameters_is_seen(
 def test_an_angle_that_a_spring_holds_is_solved_for() -> None:
     text = SPRUNG.format(gravity="none", coordinates="a: revolute", energy="k*(2*a - pi)^2/2")
     (row,) = told_of(text).result
-    assert to_unicode(row) == "a = π/2" and not told_of(text).outcome
+    assert to_unicode(row) == "a = 90°" and not told_of(text).outcome
 
 
 GEARED = """
@@ -2087,3 +2087,13 @@ def test_an_energy_that_a_whole_turn_of_all_leaves_as_it_is_is_least_somewhere()
     assert "this always has solutions" in report(dynsolve.solve(driven), Format.TEXT).decode().replace(
         "\n", " "
     )
+
+
+def test_an_angle_that_is_the_only_one_is_in_degrees_where_all_angles_are() -> None:
+    upright = (
+        "gravity: [0, -g, 0]\ndh: [{theta: th*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
+        "springs: [{stiffness: k, of: th, rest: 90deg}]\nassume: [k > m*g*l]\nfind: [equilibria]\n"
+    )
+    told = report(dynsolve.solve(upright), Format.TEXT).decode()
+    assert "is at rest at θ = 90°" in " ".join(told.split())
+    assert "it is 0 at θ = 90° alone." in told and "θ = π/2" not in told
