@@ -220,21 +220,45 @@ class Collector:
     def mostly_negative(self, poly: Polynomial) -> bool:
         """Whether a sum reads better with its sign turned: more minus than plus, or as many and one first.
 
+        Of several coordinates the one with the largest number decides, 3q₁ - 2q₂, as a spring restores it.
         Of as many a coordinate counts as first, d - l/2 and not l/2 - d, and a mass before sums of moments of
-        inertia; other sums with angles stay as they are, c₂ - a c₁ s₂, and one of a number and parameters,
-        r - 0.1 or 0.1 - r.
+        inertia, and 1 before cos v; other sums with angles stay as they are, c₂ - a c₁ s₂, and one of numbers
+        and parameters, r - 0.1 or 0.1 - r.
         """
+        if largest := self._largest_of_coordinates(poly):
+            return largest < 0
         negative = sum(f < 0 for f in poly.values())
         if 2 * negative != len(poly):
             return 2 * negative > len(poly)
         highest = max(self.atoms.ranks[atom][0] for mono in poly for atom, _ in mono)
         if highest >= Rank.TRIG:
-            first = {min(self.atoms.ranks[atom] for atom, _ in mono): f for mono, f in poly.items() if mono}
-            ranks = {rank for rank, _ in first}
-            return ranks == {Rank.LEADING, Rank.SUM} and first[min(first)] < 0
+            return self._is_turned_with_angles(poly)
         if () in poly and highest is Rank.PARAMETER:
             return False
         return self.starts_negative(poly)
+
+    def _is_turned_with_angles(self, poly: Polynomial) -> bool:
+        """Whether it is cos v - 1 for 1 - cos v, or a mass has a minus beside sums of moments of inertia."""
+        if () in poly:
+            ranks = {self.atoms.ranks[atom][0] for mono in poly for atom, _ in mono}
+            return ranks == {Rank.TRIG} and len(poly) == 2 and -poly[()] >= max(poly.values())
+        first = {min((self.atoms.ranks[atom], atom) for atom, _ in mono): f for mono, f in poly.items()}
+        ranks = {rank for (rank, _), _ in first}
+        sums = [self.atoms.nodes[atom] for (rank, _), atom in first if rank is Rank.SUM]
+        of_moments = all(self._is_mass(mono) for one in sums for mono in self.terms_of(one))
+        return ranks == {Rank.LEADING, Rank.SUM} and of_moments and first[min(first)] < 0
+
+    def _largest_of_coordinates(self, poly: Polynomial) -> Rational:
+        """The largest number before one of several coordinates beside lengths; 0 where two are as large."""
+        alone = {mono[0][0]: f for mono, f in poly.items() if mono and self._is_length(mono)}
+        if len(alone) + (() in poly) < len(poly):
+            return 0
+        own = [f for atom, f in alone.items() if self.atoms.ranks[atom][0] is Rank.COORDINATE]
+        sizes: list[Rational] = [f if f > 0 else -f for f in own]
+        largest = max(sizes, default=0)
+        if len(own) == 1 or sizes.count(largest) > 1:
+            return 0
+        return largest if largest in own else -largest
 
     def starts_negative(self, poly: Polynomial) -> bool:
         """Whether the first term has a minus, or the first in which a coordinate stands and no rate."""
@@ -253,8 +277,9 @@ class Collector:
         return -1, total([self.product(-f, m, ()) for m, f in self.ordered(terms)])
 
     def side_by_side(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
-        """Σ factor · monomial · tree with nothing drawn out: the entries of D are read off from a row."""
-        return total([self.product(f, m, ()) for m, f in self.ordered(self.added(products))])
+        """Σ factor · monomial · tree with nothing drawn out or turned: D is read off from its row."""
+        added = self.added(products, oriented=False)
+        return total([self.product(f, m, ()) for m, f in self.ordered(added)])
 
     def apart(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
         """Σ factor · monomial · tree of different rates: a few stand apart where sums multiply them.
@@ -440,8 +465,10 @@ class Collector:
         """Σ factor · monomial · tree, with what the products share drawn out."""
         return self.form(self.added(products))
 
-    def added(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Polynomial:
-        """The same as a polynomial in atoms."""
+    def added(
+        self, products: Iterable[tuple[Rational, Monomial, Node]], *, oriented: bool = True
+    ) -> Polynomial:
+        """The same as a polynomial in atoms, each sum with one sign where they are `oriented`."""
         poly: Polynomial = {}
         for factor, mono, node in products:
             sign, inner = split_sign(node)
@@ -449,7 +476,7 @@ class Collector:
             if isinstance(inner, Sum) and not mono:
                 terms = inner.terms
             elif isinstance(inner, Sum):
-                turned, inner = self._oriented(inner)
+                turned, inner = self._oriented(inner) if oriented else (1, inner)
                 terms, sign = (inner,), sign * turned
             for term in terms:
                 own, rest = self.decompose(term)

@@ -44,7 +44,7 @@ from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import attempted, warn_left_out
 from dynsolve.notation import tree
-from dynsolve.notation.build import split_sign, times, total
+from dynsolve.notation.build import split_sign, summands, times, total
 from dynsolve.notation.tree import ZERO, Node, names_in, walk
 
 MUCH_CHEAPER = 0.75
@@ -466,9 +466,11 @@ class Compactor:
         for factor, (trig, symbols) in found.roots:
             sign, mono = self._atoms.basic_trig_monomial(trig, g)
             root[multiply(mono, symbols)] = sign * factor
-        if self.collector.starts_negative(root):
-            root = {mono: -factor for mono, factor in root.items()}
-        number, mono = self.collector.decompose(tree.Power(self.collector.form(root), tree.Number(2)))
+        base = self.collector.form(root)
+        signs = sum(split_sign(term)[0] for term in summands(base))
+        if signs < 0 or (not signs and self.collector.starts_negative(root)):
+            base = self.collector.form({mono: -factor for mono, factor in root.items()})
+        number, mono = self.collector.decompose(tree.Power(base, tree.Number(2)))
         others = (0,) * (len(self._groups) - g - 1)
         rest: Terms = {
             (powers.number(trig), *others, 0, monomials.number(symbols), 0): f

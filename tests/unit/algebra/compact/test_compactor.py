@@ -128,6 +128,14 @@ def test_a_polynomial_and_a_multiple_of_it_are_spelled_alike(written: str, print
         ("m1*(l/2 - d)^2*sin(q1)^2", "m1*(d - l/2)**2*sin(q1)**2"),
         ("m1*(l/2 - d)^2*cos(q2)^2 + m2*d^2*cos(q2)^2", "(m1*(d - l/2)**2 + m2*d**2)*cos(q2)**2"),
         ("l/2 - d", "l/2 - d"),
+        ("k*(a + 2*q2 - 3*q1)", "-k*(3*q1 - a - 2*q2)"),
+        ("k*(4*q1 - 5*q2 + q3)", "-k*(5*q2 - 4*q1 - q3)"),
+        ("a*(cos(q1) - 1)", "-a*(1 - cos(q1))"),
+        ("m1*(d*sin(q1) - a*cos(q1) - b*cos(q1 + q2))^2", "m1*(a*cos(q1) + b*cos(q1 + q2) - d*sin(q1))**2"),
+        (
+            "((m1*a^2 + I1)*cos(q2) - m1*a*sin(q2))*q1_ddot + I2*q2_ddot",
+            "((m1*a**2 + I1)*cos(q2) - m1*a*sin(q2))*q1_ddot + I2*q2_ddot",
+        ),
     ],
 )
 def test_a_sum_that_is_a_factor_has_one_orientation(written: str, printed: str) -> None:
