@@ -198,9 +198,14 @@ class Collector:
         return not self.decimal and any(self.atoms.ranks[atom][0] is Rank.ROOT for atom, _ in mono)
 
     def _of_several_bodies(self, poly: Polynomial) -> bool:
-        """Whether terms have different masses and fractions: m₁ r²/2 + m₂ l²/12 stays two terms."""
+        """Whether terms have different masses and fractions: m₁ r²/2 + m₂ l²/12 stays two terms.
+
+        Not where all are of squares of parts, 3m₁ (a/4)² + 3m₂ (b/2)², which are 3(m₁ a² + 4m₂ b²)/16.
+        """
         ranks = self.atoms.ranks
-        if len({f.denominator for f in poly.values()}) == 1:
+        above = {abs(f.numerator) for f in poly.values()}
+        below = {f.denominator for f in poly.values()}
+        if len(below) == 1 or (len(above) == 1 and 1 not in below and all(map(rational_root, below))):
             return False
         return len({tuple(a for a, _ in mono if ranks[a][0] is Rank.LEADING) for mono in poly}) > 1
 

@@ -339,11 +339,15 @@ class Compactor:
         size, rest = self._usual(rest)
         found = self._by_angles(rest)
         if len(terms) <= self._large and any(e[MASSES] for e in terms):
-            found = min(self._by_masses(rest), found, key=self.collector.cost)
+            found = min(self._by_masses(rest), found, key=self._cost_without_sign)
         if size != 1:
             found = self.collector.sum_of([(size, (), found)])
         found = min(self._typed_square(rest) or found, found, key=self.collector.cost)
         return self.collector.sum_of([(*shared, found)])
+
+    def _cost_without_sign(self, node: Node) -> int:
+        """The operations of a tree but for a minus before it: a sum and its negative have one form."""
+        return self.collector.cost(split_sign(node)[1])
 
     def _typed_square(self, terms: Terms) -> Node | None:
         """0.5 (0.2 + 0.3 c₂)², where numbers were typed that make a square of the terms; else None."""
@@ -366,8 +370,9 @@ class Compactor:
         """(size, terms / size): a polynomial and twice it are spelled alike.
 
         The size is the largest factor of a square of lengths, where that is the same beside each mass; where
-        there is no square, that of most terms.  None is taken that would make finer fractions than halves of
-        what they are, nor of squares alone, m (h² + 3r²) c/12.
+        there is no square, that of most terms; so too of moments beside a mass, 2(m l²/4 + I₁ - I₂).
+        None is taken that would make finer fractions than halves of what they are, nor of squares alone,
+        m (h² + 3r²) c/12.
         """
         if self.collector.decimal or len(terms) > LARGE:
             return 1, terms
@@ -378,10 +383,14 @@ class Compactor:
         of_masses: dict[int, Rational] = {e[MASSES]: 0 for e in terms}
         for e, f in squares.items():
             of_masses[e[MASSES]] = max(f, of_masses[e[MASSES]])
-        if len(set(of_masses.values())) > 1:
-            return 1, terms
         counts = Counter(sizes.values())
-        size = max(squares.values()) if squares else max(counts, key=lambda f: (counts[f], f))
+        size = max(counts, key=lambda f: (counts[f], f))
+        if len(set(of_masses.values())) > 1:
+            has_fraction = whole_content(terms.values()).denominator > 1
+            if not has_fraction or size.numerator == 1 or 2 * counts[size] <= len(terms):
+                return 1, terms
+        elif squares:
+            size = max(squares.values())
         rest = {e: exact(f, size) for e, f in terms.items()}
         finer = whole_content(rest.values()).denominator > 2 * whole_content(terms.values()).denominator
         return (1, terms) if finer else (size, rest)

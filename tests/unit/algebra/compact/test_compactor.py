@@ -113,6 +113,10 @@ def test_it_reads_as_a_textbook_prints_it(written: str, printed: str) -> None:
             "m1*a**2*(3/2 + cos(q1)) + m2*(a**2 + b**2/3 + a*b*cos(q2))",
         ),
         ("4*m1*a^2/9 + I1*(3*b^5/5 + 5*b^3/2)", "4*m1*a**2/9 + I1*(3*b**5/5 + 5*b**3/2)"),
+        ("3*m1*a^2/16 + 3*m2*b^2/4", "3*(m1*a**2 + 4*m2*b**2)/16"),
+        ("(m1*a^2/64 + m2*b^2/16)*(3 + 2*cos(q1))", "(m1*a**2 + 4*m2*b**2)*(3 + 2*cos(q1))/64"),
+        ("m1*a^2/12 + m2*b^2/3", "m1*a**2/12 + m2*b**2/3"),
+        ("(m1*a^2/2 - 2*I1 + 2*I2 - 2*I3)*cos(q1)", "2*(m1*a**2/4 - I1 + I2 - I3)*cos(q1)"),
     ],
 )
 def test_a_polynomial_and_a_multiple_of_it_are_spelled_alike(written: str, printed: str) -> None:
@@ -128,6 +132,10 @@ def test_a_polynomial_and_a_multiple_of_it_are_spelled_alike(written: str, print
         ("m1*(l/2 - d)^2*sin(q1)^2", "m1*(d - l/2)**2*sin(q1)**2"),
         ("m1*(l/2 - d)^2*cos(q2)^2 + m2*d^2*cos(q2)^2", "(m1*(d - l/2)**2 + m2*d**2)*cos(q2)**2"),
         ("l/2 - d", "l/2 - d"),
+        (
+            "-(m2*(a + d)^2 + I1 - m1*c^2 - I2 + I3 - I4)*sin(q1)*cos(q1)",
+            "-(m2*(a + d)**2 + I1 - m1*c**2 - I2 + I3 - I4)*sin(q1)*cos(q1)",
+        ),
         ("k*(a + 2*q2 - 3*q1)", "-k*(3*q1 - a - 2*q2)"),
         ("k*(4*q1 - 5*q2 + q3)", "-k*(5*q2 - 4*q1 - q3)"),
         ("a*(cos(q1) - 1)", "-a*(1 - cos(q1))"),
