@@ -38,6 +38,7 @@ from dynsolve.algebra.compact.terms import (
 from dynsolve.notation.build import (
     QUARTERS,
     cost,
+    ends,
     number_in_front,
     plus_first,
     split_sign,
@@ -100,6 +101,7 @@ class Collector:
         self._products: dict[tuple[Rational, Monomial, tuple[Node, ...]], Node] = {}
         self._decomposed: dict[Node, tuple[Rational, Monomial]] = {}
         self._places: dict[Monomial, tuple[object, ...]] = {}
+        self._has_parameters = any(rank is Rank.PARAMETER for rank, _ in atoms.ranks)
         self._spelled = dict(primitive(self.terms_of(one)) for one in spelled)
 
     def cost(self, node: Node) -> int:
@@ -360,12 +362,16 @@ class Collector:
         return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms], decimal=decimal)
 
     def _is_half_of_letters(self, factor: Rational, atoms: Iterable[tuple[int, int]]) -> bool:
-        """Whether a half, a quarter or an eighth that nobody typed is beside letters: m l/2, 3m/4."""
+        """Whether a half, a quarter or an eighth that nobody typed is beside letters: m l/2, 3m/4.
+
+        Beside masses alone it comes from lengths in numbers: 0.25 m.
+        """
         is_typed = not self.typed or abs(factor) in self.typed
         letters = {1: (Rank.LEADING, Rank.PARAMETER), 3: (Rank.LEADING,)}.get(abs(factor.numerator), ())
         return (
             factor.denominator in QUARTERS
             and not is_typed
+            and self._has_parameters
             and any(self.atoms.ranks[atom][0] in letters for atom, _ in atoms)
         )
 
@@ -619,6 +625,8 @@ class Collector:
         if found is None:
             return None
         x, y, ratio = found
+        if self.decimal and not ends(ratio.denominator):
+            return None  # 20s₂/7
         if self.atoms.ranks[y][0] is Rank.COORDINATE is not self.atoms.ranks[x][0] and ratio < 0:
             x, y, ratio = y, x, exact(1, ratio)
         node = self._sum_node(x, y, ratio)

@@ -254,6 +254,9 @@ def _distinct(found: list[TrigForm]) -> list[TrigForm]:
 TERM = 3.0
 """What a term costs besides its sines and cosines: a sign, a product and a coefficient."""
 
+MIXED = 0.125
+"""What each term with another sign than most costs: of a + b s² and (a + b) - b c² the first is taken."""
+
 SHARED = 0.75
 """The part of the price of sines and cosines that is saved where another coefficient stands at them too."""
 
@@ -333,7 +336,9 @@ class AngleGroup:
             float(sum(2 + _angle_price(multiples) + (e > 1) for (_, multiples), e in mono)) for mono in form
         )
         odd = sum(0.5 * (abs(f) != 1) + (f.denominator != 1) for f in form.values())
-        price = TERM * len(form) + sum(trig_prices) + odd
+        minuses = sum(f < 0 for f in form.values())
+        mixed = MIXED * min(minuses, len(form) - minuses)
+        price = TERM * len(form) + sum(trig_prices) + odd + mixed
         items = tuple((self.monomials.number(mono), f) for mono, f in form.items())
         return _Option(items, price, trig_prices, price - SHARED * sum(trig_prices))
 

@@ -79,6 +79,7 @@ def compact(text: str) -> str:
         ("m1*(a^2 + 3*b^2)*cos(q1)/12", "m1*(a**2 + 3*b**2)*cos(q1)/12"),
         ("(sin(q1)*a*q1_dot)^2 + (cos(q1)*a*q1_dot)^2", "a**2*q1_dot**2"),
         ("a*q1_ddot + b*q1_dot + g*cos(q1)", "a*q1_ddot + b*q1_dot + g*cos(q1)"),
+        ("7 + 3*sin(q1) - 5*cos(q1)^2", "2 + 5*sin(q1)**2 + 3*sin(q1)"),
         ("m1*(a^2 + a*b*cos(q2))", "m1*(a**2 + a*b*cos(q2))"),
         ("m1*a*(b + a*sin(q1))*cos(q1)", "m1*a*cos(q1)*(b + a*sin(q1))"),
         ("m1*(d + a*sin(q1))*d*cos(q1)", "m1*d*cos(q1)*(d + a*sin(q1))"),
@@ -426,6 +427,12 @@ def test_beside_decimals_quarters_of_masses_and_energies_are_fractions_everywher
     forms = Forms(problem.robot, derive(problem.robot))
     shown = [to_unicode(forms(name)) for name in ("Kw1", "K", "dLdqd1", "D", "Ps")]
     assert shown == ["m a² q̇²/4", "3m a² q̇²/4", "3m a² q̇/2", "[[3m a²/2]]", "½ k q² + ¼ c q⁴"]
+
+
+def test_beside_masses_alone_quarters_are_of_lengths_in_numbers() -> None:
+    masses = "masses: [{mass: m, link: 1, center: midpoint}, {mass: 0.3, link: 1, center: tip}]\n"
+    problem = read_problem(f"gravity: none\ndh: [{{theta: q*, a: 1}}]\n{masses}")
+    assert to_unicode(Forms(problem.robot, derive(problem.robot))("D")) == "[[0.3 + 0.25 m]]"
 
 
 @pytest.mark.parametrize("arm", ["R - 0.1", "0.1 - R", "a - b", "b - a", "b - 0.7 a"])
