@@ -141,7 +141,7 @@ def _written(context: Context, value: Matrix, form: tree.Matrix) -> tree.Matrix:
             beside = _coefficients(value[k, 0], found.pair)
             assert beside is not None
             terms = [_product(context, *pair) for pair in zip(angular, beside, strict=True)]
-            rows[k] = (Sum(tuple(reversed(terms) if is_second else terms)),)
+            rows[k] = (total([*reversed(terms)] if is_second else terms),)
     return tree.Matrix(tuple(rows))
 
 
