@@ -110,6 +110,10 @@ class VerificationError(DynsolveError):
     """The results disagree with the independent computation: a fault of dynsolve, never of the user."""
 
 
+class NoStatesError(VerificationError):
+    """No values of the parameters were found for which results can be compared."""
+
+
 class ExplanationWarning(UserWarning):
     """A part of an explanation failed and is left out: a fault of dynsolve.  The results stand."""
 

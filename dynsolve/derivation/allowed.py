@@ -17,7 +17,7 @@ from dynsolve.algebra.linear_systems import rank_parts
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import ENOUGH
-from dynsolve.derivation.arm_values import states_with
+from dynsolve.derivation.arm_values import assumed_states
 from dynsolve.derivation.configurations import NO_VALUE
 from dynsolve.derivation.elimination import free_directions, rank, shortest_step
 from dynsolve.derivation.reached import CLOSE
@@ -57,7 +57,7 @@ def where_allowed(robot: Robot, A: Matrix, h: Matrix) -> Allowed:
         return Allowed(most)
     slopes = Matrix.of(robot.ring, ([robot.ring.diff(f, k) for k in range(robot.n)] for f in h.entries))
     found = []
-    for start, _ in islice(states_with(robot.ring, lambda at: _assumed(robot, at)), ENOUGH):
+    for start in islice(assumed_states(robot), ENOUGH):
         at = _on(robot, h, slopes, start)
         if at is None:
             continue
@@ -69,11 +69,6 @@ def where_allowed(robot: Robot, A: Matrix, h: Matrix) -> Allowed:
         return Allowed(most)
     least = max(there for there, _ in found)
     return Allowed(least, True, all(_is_whole(robot, h, slopes, at) for one, at in found if one == least))
-
-
-def _assumed(robot: Robot, at: Mapping[str, float]) -> None:
-    if any(evaluate(bound.value, at) <= 0 for bound in robot.questions.model.assumed):
-        raise ValueError  # the next sample is taken
 
 
 def _on(robot: Robot, h: Matrix, slopes: Matrix, start: Mapping[str, float]) -> dict[str, float] | None:

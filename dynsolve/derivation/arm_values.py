@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from random import Random
 from typing import TypeVar
 
 from msgspec import Struct
@@ -11,7 +12,7 @@ from msgspec import Struct
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import evaluate
-from dynsolve.algebra.sampling import samples
+from dynsolve.algebra.sampling import SEED, samples
 from dynsolve.derivation.newton_euler import (
     ZERO,
     Arm,
@@ -26,12 +27,15 @@ from dynsolve.derivation.newton_euler import (
     times,
     transposed,
 )
-from dynsolve.errors import VerificationError
+from dynsolve.errors import NoStatesError
 from dynsolve.robot import model
 from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
 
-_MISSES = 200
+_MISSES = 600
 """So many samples after each other may have no value."""
+
+_NEAR, _STEP = 100, 25
+"""After so many misses parameters lie by powers of 2 farther apart, by one more after each further step."""
 
 Made = TypeVar("Made")
 
@@ -44,21 +48,40 @@ def arms(robot: Robot) -> Iterator[tuple[dict[str, float], Arm]]:
 def states_with(
     ring: Ring, at: Callable[[Mapping[str, float]], Made], signed: Iterable[str] = (), first: int = 0
 ) -> Iterator[tuple[dict[str, float], Made]]:
-    """The samples where `at` has a value, without end, and what it makes of them."""
-    missed = 0
+    """The samples where `at` has a value, without end, and what it makes of them.
+
+    Parameters are near 1 as long as that gives values; k > 100 m asks for others.
+    """
+    missed = powers = 0
+    random = Random(SEED)  # noqa: S311 - the same samples every time are wanted
     for values in samples(ring, signed, first):
+        if powers:
+            moved = (name for name in ring.parameters if random.random() < 0.5)
+            values |= {name: values[name] * 2 ** random.uniform(-powers, powers) for name in moved}
         try:
             made = at(values)
         except (ValueError, ZeroDivisionError):
             missed += 1
+            powers = max(powers, (missed - _NEAR) // _STEP)
             if missed == _MISSES:
                 break
             continue
         missed = 0
         yield values, made
-    raise VerificationError(
-        "no values of the parameters were found for which every root and quotient is real"
-    )
+    raise NoStatesError("no values of the parameters were found for which every root and quotient is real")
+
+
+def assumed_states(robot: Robot) -> Iterator[dict[str, float]]:
+    """The samples that satisfy what is assumed of the parameters."""
+
+    def check(values: Mapping[str, float]) -> None:
+        if any(evaluate(bound.value, values) <= 0 for bound in robot.questions.model.assumed):
+            raise ValueError  # the next sample is taken
+
+    try:
+        yield from (values for values, _ in states_with(robot.ring, check))
+    except NoStatesError:
+        raise NoStatesError("no positive values of the parameters are known that satisfy `assume`") from None
 
 
 def arm_at(robot: Robot, values: Mapping[str, float]) -> Arm:

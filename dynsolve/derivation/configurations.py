@@ -134,7 +134,8 @@ def _newton(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | N
         for name, x in zip(names, step, strict=True):
             at[name] += x
         moved = max(map(abs, step), default=0.0)
-        if moved < SMALL and max(map(abs, f)) < CLOSE**2:
+        sizes = (max(1.0, *map(abs, row)) for row in rows)
+        if moved < SMALL and max(abs(value) / size for value, size in zip(f, sizes, strict=True)) < CLOSE**2:
             return at
     return None
 

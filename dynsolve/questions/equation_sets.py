@@ -14,9 +14,8 @@ from math import degrees, pi, radians, remainder
 
 from msgspec import Struct
 
-from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import ENOUGH
-from dynsolve.derivation.arm_values import states_with
+from dynsolve.derivation.arm_values import assumed_states
 from dynsolve.derivation.configurations import NO_VALUE, is_zero, with_half_turns, zero_near
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.notation.printing import PLAIN
@@ -216,12 +215,7 @@ def turning_in(robot: Robot) -> tuple[str, ...]:
 
 def starts(robot: Robot, numbers: Mapping[str, float] | None = None) -> Iterator[dict[str, float]]:
     """Configurations in all quadrants, with parameters as is assumed of them."""
-
-    def assumed(values: Mapping[str, float]) -> None:
-        if any(evaluate(bound.value, values) <= 0 for bound in robot.questions.model.assumed):
-            raise ValueError  # the next sample is taken
-
-    for found, _ in islice(states_with(robot.ring, assumed), ENOUGH):
+    for found in islice(assumed_states(robot), ENOUGH):
         values = {**found, **(numbers or {})}
         yield values | moving(robot, values)
 

@@ -13,7 +13,7 @@ from dynsolve.algebra.angles import in_degrees
 from dynsolve.algebra.matrix import needed_roots
 from dynsolve.derivation.graph import Derivation, Skipped, known
 from dynsolve.derivation.rules import derive
-from dynsolve.errors import AlgebraError, ProblemError, VerificationError, warn_left_out
+from dynsolve.errors import AlgebraError, NoStatesError, ProblemError, VerificationError, warn_left_out
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.python import to_python
 from dynsolve.problem import Problem
@@ -40,14 +40,17 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
     wrong: dict[str, Skipped] = {}
     for stage in ASKED_FOR:
         if stage in asked and (question := stage.part("check")) is not None:
+            names = [name for name in robot.questions.asked if _stage_of(robot, name) is stage]
             try:
                 question.verify(held)
             except VerificationError as error:
-                names = [name for name in robot.questions.asked if _stage_of(robot, name) is stage]
                 if not names:
                     raise
-                warn_left_out(f"the part {stage}", str(error))
-                wrong |= dict.fromkeys(names, Skipped("its check found it to be wrong"))
+                why = str(error)
+                if not isinstance(error, NoStatesError):
+                    warn_left_out(f"the part {stage}", why)
+                    why = "its check found it to be wrong"
+                wrong |= dict.fromkeys(names, Skipped(why))
     return Derivation(values.rules.values(), wrong) if wrong else values
 
 

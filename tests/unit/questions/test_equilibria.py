@@ -54,6 +54,21 @@ def test_by_hand(problem: str, equilibria: list[list[str]]) -> None:
     assert dynsolve.solve(problem).to_json()["results"]["equilibria"] == equilibria
 
 
+@pytest.mark.parametrize("assumed", ["l > 3", "m > 1000", "m > 5, g > 20*l", "m*g > 10000*l"])
+def test_what_is_assumed_may_be_far_from_one(assumed: str) -> None:
+    """It is met by none of the values that parameters have otherwise."""
+    arm = "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
+    found = dynsolve.solve(f"{arm}assume: [{assumed}]\nfind: [equilibria]\n").to_json()["results"]
+    assert found["equilibria"] == [["cos(q1) = 0"]]
+
+
+@pytest.mark.parametrize("assumed", ["m > l, l > m", "m < 0"])
+def test_what_no_positive_values_satisfy_is_not_called_wrong(assumed: str) -> None:
+    arm = "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
+    found = dynsolve.solve(f"{arm}assume: [{assumed}]\nfind: [equilibria]\n").to_json()["results"]
+    assert "no positive values" in found["equilibria"]["skipped"]
+
+
 def test_a_hanging_arm_is_stable_and_no_other() -> None:
     (points,) = dynsolve.solve(ARM).to_json()["results"]["equilibria_stability"]
     stable = [point for point in points if point["stability"] == "stable"]
