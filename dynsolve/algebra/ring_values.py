@@ -58,6 +58,15 @@ def value_of(ring: Ring, node: Node) -> Expr:
     return Evaluator(ring).value(node).numerator
 
 
+def has_value(ring: Ring, node: Node) -> bool:
+    """Whether a ring holds all that a formula is made of."""
+    try:
+        value_of(ring, node)
+    except AlgebraError:
+        return False
+    return True
+
+
 class ProductTerm(Struct):
     """A product under construction: coefficient · Π generator^exponent · Π factors."""
 

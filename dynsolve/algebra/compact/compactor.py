@@ -41,7 +41,7 @@ from dynsolve.algebra.compact.terms import (
 from dynsolve.algebra.compact.trig_forms import angle_groups
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.ring_values import has_value, value_of
 from dynsolve.errors import attempted, warn_left_out
 from dynsolve.notation import tree
 from dynsolve.notation.build import split_sign, summands, times, total
@@ -104,6 +104,7 @@ class Compactor:
         self._atoms = RingAtoms(ring, leading, self._groups, self.form)
         self.collector = Collector(self._atoms.table, decimal=decimal, typed=typed, spelled=spelled)
         self._proof = Proof(ring)
+        spelled = [one for one in spelled if has_value(ring, one)]  # (q₂ - d)² of one matrix, in another's ring
         self._of_rates = [one for one in spelled if any(getattr(part, "dots", 0) for part in walk(one))]
         self._spelled = [one for one in spelled if one not in self._of_rates]
         self._apart = [i for i, part in enumerate(self._atoms.parts) if part in (MASSES, RATES)]

@@ -287,3 +287,14 @@ def test_a_product_of_factors_that_is_known_is_left_out() -> None:
     """(a - b)(a + b)(a² - 2b²) > 0 where 2a² > 3b²"""
     three = "[[a, b*cos(q2), 0], [b*cos(q2), a, b], [0, b, a]]"
     assert solve_json(file(three))["results"]["definite"]["M"]["conditions"] == ["a > 0", "a**2 - 2*b**2 > 0"]
+
+
+@pytest.mark.parametrize("order", ["AB", "BA"])
+def test_a_sum_of_one_matrix_is_not_looked_for_in_another(order: str) -> None:
+    """(q₂ - d)² has a letter that the other matrix does not have."""
+    matrices = {"A": "[[a + (q2 - d)^2, 0], [0, m]]", "B": "[[b, 0], [0, c]]"}
+    text = "".join(f"  {name}: {matrices[name]}\n" for name in order)
+    file = f"candidates:\n{text}coordinates: {{q1: revolute, q2: prismatic}}\nfind: [definite]\n"
+    found = dynsolve.solve(file)
+    assert found.to_json()["results"]["definite"]["A"]["conditions"] == ["a > 0", "m > 0"]
+    assert "(q_{2} - d)^{2}" in found.to_markdown()
