@@ -1280,6 +1280,7 @@ Where that is positive definite, the <equilibrium|motion> is stable; where <the 
 Where the energy is curved upwards along each of them, the equilibrium is stable; where it falls along one, it
   is not.
 How stable <they|the others> are is not told here.
+All this is where {} is positive definite.
 All this is without Coulomb friction[, which can hold what is not stable].
 The same is so for special parameters.
 Along the axis of a joint the force, where it slides, or the moment, where it turns, is what drives it.

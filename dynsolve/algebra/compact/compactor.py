@@ -104,7 +104,7 @@ class Compactor:
         self._atoms = RingAtoms(ring, leading, self._groups, self.form)
         self.collector = Collector(self._atoms.table, decimal=decimal, typed=typed, spelled=spelled)
         self._proof = Proof(ring)
-        spelled = [one for one in spelled if has_value(ring, one)]  # (q₂ - d)² of one matrix, in another's ring
+        spelled = [one for one in spelled if has_value(ring, one)]  # not those of another matrix
         self._of_rates = [one for one in spelled if any(getattr(part, "dots", 0) for part in walk(one))]
         self._spelled = [one for one in spelled if one not in self._of_rates]
         self._apart = [i for i, part in enumerate(self._atoms.parts) if part in (MASSES, RATES)]

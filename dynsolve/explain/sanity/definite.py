@@ -65,9 +65,13 @@ from dynsolve.quantities import letters
 LONGEST = 60
 """The operations of a determinant up to which it is of use to a reader."""
 
-
 LONGEST_ENTRY = 8
 """The operations of an entry of the diagonal up to which it is written again."""
+
+
+def is_definite(context: Context) -> bool:
+    """Whether D is that of bodies, or of a given model and seen to be positive definite."""
+    return context.robot.given is None or _by_entries(context) is not None
 
 
 def definite_step(context: Context) -> Step | None:
@@ -99,9 +103,10 @@ def _singular(context: Context, seen: list[Place] | None) -> Step | None:
         reason = "In every pose row {zero} of $𝐃$ is 0, so {det}"
     elif any(equal):
         reason = "In every pose rows {i} and {j} of $𝐃$ are equal, so {det}"
+    is_else = context.robot.given is None and bool(seen) and all(bounds for _, bounds in seen or ())
     told = say(
         f"{reason}: some rates that are not 0 have no kinetic energy, and the forces do not determine all "
-        f"accelerations.{_ELSE * (bool(seen) and all(bounds for _, bounds in seen or ()))}",
+        f"accelerations.{' For other parameters $𝐃$ is positive definite.' * is_else}",
         det=det,
         zero=zero,
         i=equal[0],
@@ -118,9 +123,6 @@ def _singular(context: Context, seen: list[Place] | None) -> Step | None:
         outcome=told,
         is_task=False,
     )
-
-
-_ELSE = " For other parameters $𝐃$ is positive definite."
 
 
 def _vanishing(context: Context, value: Expr, moving: list[Place]) -> Iterator[Prose]:
@@ -162,7 +164,6 @@ def _step(
 
 
 _TENSORS = ", and the tensors those of bodies", " and tensors of bodies"
-
 
 _APART = " $𝐃$ consists of {parts}, not coupled with each other: each counts by itself."
 

@@ -23,6 +23,7 @@ from dynsolve.document.sentences import Value, paragraph, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms, ProductForms
 from dynsolve.explain.given import in_units
+from dynsolve.explain.sanity.definite import is_definite
 from dynsolve.explain.sanity.determinant import sign_of
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
 from dynsolve.explain.writing import agreeing, and_joined, as_row, is_small, listed, scalar, side_by_side
@@ -112,6 +113,7 @@ MOST_ZEROS = 8
 
 _COULOMB = "Coulomb friction is left out: wherever it holds, there is rest, too."
 _CONSTANT = "All this is with motors whose forces stay as they are."
+_DEFINITE = "All this is where $𝐃$ is positive definite."
 _NOT_HELD = "All this is without Coulomb friction{held}."
 _CAN_HOLD = ", which can hold what is not stable"
 _NEVER_HELD = "Where all of them are 0, the rows of $𝐀_c$ are dependent and there is no $𝛌$."
@@ -565,6 +567,8 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
     sentences = [*(_verdict(context, shown, found, *one) for one in told), *([more] if more else [])]
     if robot.questions.model.inputs_given and any(point.is_told for point, _ in told):
         sentences.append((_CONSTANT,))
+    if any(point.is_told for point, _ in told) and not is_definite(context):
+        sentences.append(say(_DEFINITE))
     slid = _held_by_friction(robot)
     if slid and any(point.stability is not Stability.STABLE for point, _ in told):
         holds = not robot.questions.constraints and _can_hold(

@@ -54,6 +54,16 @@ def test_by_hand(problem: str, equilibria: list[list[str]]) -> None:
     assert dynsolve.solve(problem).to_json()["results"]["equilibria"] == equilibria
 
 
+def test_a_given_model_is_stable_where_its_inertia_matrix_is_positive_definite() -> None:
+    """D = [[1, 2], [2, 1]] and P = (x² + y²)/2: x - y grows as e^t."""
+    model = (
+        "model:\n  coordinates: {x: prismatic, y: prismatic}\n  D: [[a, b], [b, a]]\n  P: k*(x^2 + y^2)/2\n"
+    )
+    proviso = "All this is where 𝐃 is positive definite."
+    assert proviso in read(f"{model}find: [equilibria]\n")
+    assert proviso not in read(f"{model.replace('a, b], [b, a', 'a + b, b], [b, b')}find: [equilibria]\n")
+
+
 @pytest.mark.parametrize("assumed", ["l > 3", "m > 1000", "m > 5, g > 20*l", "m*g > 10000*l"])
 def test_what_is_assumed_may_be_far_from_one(assumed: str) -> None:
     """It is met by none of the values that parameters have otherwise."""
