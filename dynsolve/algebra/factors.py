@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from functools import cache, lru_cache
 from itertools import combinations, product
 from math import cos, isqrt, prod, radians, sin, sqrt
@@ -29,7 +30,10 @@ from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, nmod_mpoly_ctx
 
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.fourier import fourier_form, terms_of
 from dynsolve.algebra.generators import Generator, Pair
+from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.notation.tree import Number
 
@@ -319,6 +323,34 @@ def squares(expr: Expr) -> tuple[Expr, ...]:
         return ()
     bare = {tuple(0 if i in free else int(e) for i, e in enumerate(exponents)) for exponents in terms}
     return tuple(halves.expr(halves.ctx.from_dict({exponents: 1})) for exponents in sorted(bare))
+
+
+def at_edge(expr: Expr) -> tuple[Expr, ...]:
+    """What must be 0 where a value at the edge of its range is: 1 + c₂ and 1 + c₂₃ of l (2 + c₂ + c₂₃).
+
+    Parameters count as positive.  Nothing of what may be of both signs, or is never 0.
+    """
+    ring, free, one = expr.ring, parameters(expr), expr.ring.one
+    trig = [i for pair in ring.pairs for i in (pair.sine, pair.cosine)]
+    by_size: dict[tuple[int, ...], dict[tuple[int, ...], Fraction]] = {}
+    for exponents, number in expr.poly.to_dict().items():
+        size = tuple(0 if i in trig else int(e) for i, e in enumerate(exponents))
+        if any(e and i not in free for i, e in enumerate(size)):
+            return ()
+        powers = tuple(int(exponents[i]) for i in trig)
+        by_size.setdefault(size, {})[powers] = fraction(number)
+    signs, found = set(), dict[Expr, None]()
+    for polynomial in by_size.values():
+        waves = dict(terms_of(fourier_form(polynomial)))
+        middle = waves.pop(("cos", (0,) * len(ring.pairs)), Fraction(0))
+        if not middle or abs(middle) != sum(map(abs, waves.values())):
+            return ()
+        signs.add(middle > 0)
+        for (kind, multiples), size_of in waves.items():
+            angle = sum((pair.angle * n for pair, n in zip(ring.pairs, multiples, strict=True)), Angle.zero())
+            wave = ring.sin(angle) if kind == "sin" else ring.cos(angle)
+            found[one + wave if size_of * middle > 0 else one - wave] = None
+    return tuple(found) if len(signs) == 1 else ()
 
 
 def halves(expr: Expr) -> tuple[tuple[Expr, ...], ...]:

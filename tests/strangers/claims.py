@@ -1287,7 +1287,7 @@ Along the axis of a joint the force, where it slides, or the moment, where it tu
 Section # has ....
 Where nothing moves: not derived.
 The singular configurations: not derived.
-At given values of q its rank shows whether the arm is singular.
+At given values of q the rank of the Jacobian shows whether the arm is singular.
 The kinetic energy needs the <moment about the parallel axis through|tensor about> the mass centre.
 The first of the relative coordinates of a chain does not occur.
 The entries of {}, below, are chosen: independent ones of which all of these are combinations.

@@ -7,7 +7,7 @@ from itertools import combinations, product
 
 from msgspec import Struct, field
 
-from dynsolve.algebra.factors import is_positive, squares, trig_factors, trig_quotient
+from dynsolve.algebra.factors import at_edge, is_positive, squares, trig_factors, trig_quotient
 from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix, Place, minors, parts, placed_minors, work
 from dynsolve.algebra.ring import Expr
@@ -218,7 +218,7 @@ class _Cases(Struct, dict=True):
         shared = {factor for factor in chosen if all(factor in others for others in choices)}
         alone = [_without(value, shared) for value in left]
         for factor in chosen:
-            condition, parts = Condition(factor), squares(factor)
+            condition, parts = Condition(factor), squares(factor) or at_edge(factor)
             kept = left if factor in shared else alone
             if len(parts) > 1:
                 yield from self.of((*parts, *kept), held)

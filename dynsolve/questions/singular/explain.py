@@ -11,6 +11,7 @@ from dynsolve.algebra.factors import is_never_zero, trig_factors
 from dynsolve.algebra.matrix import Place
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import is_seen
+from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.losses import Loss
 from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
@@ -53,14 +54,10 @@ def steps(context: Context) -> Iterator[Step]:
     if "singular" not in context.wanted:
         return
     forms = SingularForms(context.robot, context.values)
-    found = forms.singular_set
-    if found is None:
-        why = "The Jacobian and its minors are too long to be taken apart into factors. "
-        yield not_derived(
-            "singular",
-            _TITLE,
-            why + "At given values of q its rank shows whether the arm is singular",
-        )
+    found = context.values["singular"]
+    if isinstance(found, Skipped):
+        at_values = "At given values of q the rank of the Jacobian shows whether the arm is singular"
+        yield not_derived("singular", _TITLE, f"{found.why}. {at_values}")
         return
     yield replace(_rank(context, forms, found), group=_SETS)
     yield replace(_alternatives(forms, found, _letter(context)), group=_SETS, normal=NOTED)

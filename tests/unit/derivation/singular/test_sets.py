@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -58,6 +59,19 @@ def test_the_alternatives(table: str, task: str, rank: int, alternatives: list[l
     written = [sorted(to_python(form(c.expr)) for c in one) for one in found.alternatives]
     assert found.rank == rank
     assert sorted(written) == sorted(sorted(one) for one in alternatives)
+
+
+@pytest.mark.parametrize(
+    ("offset", "lengths"), [("2", "11"), ("2*l", "ll"), ("b + c", "bc"), ("b + 2*c", ["b", "2*c"])]
+)
+def test_a_factor_that_is_0_where_another_is_as_well_is_no_case(offset: str, lengths: Sequence[str]) -> None:
+    """a₁ + a₂ c₂ + a₃ c₂₃ is 0 at c₂ = c₂₃ = -1 alone where a₁ = a₂ + a₃: the arm is folded."""
+    second, third = lengths
+    rows = (
+        f"{{theta: q1*, a: {offset}, alpha: 90deg}}, {{theta: q2*, a: {second}}}, {{theta: q3*, a: {third}}}"
+    )
+    found = dynsolve.solve(f"gravity: none\ndh: [{rows}]\nfind: [singular]\n").to_json()["results"]
+    assert found["singular"] == [["sin(q3) = 0"]]
 
 
 def test_what_cannot_hold_together_is_not_listed() -> None:
