@@ -1250,6 +1250,7 @@ Letters are positive and independent of each other: what vanishes for some of th
   count as 0.
 At random joint values this table moves the hand as the product of the exponentials of the drawn axes does.
 It exists where the rows of the Jacobian are independent.
+It exists where {}.
 Each axis is carried along by the turns before it, so that its matrix stands on the right.
 The angular velocity is the sum over the turns: the rate of each angle along its axis, as the turns before
   it have carried that.

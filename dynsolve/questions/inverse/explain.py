@@ -10,11 +10,14 @@ from msgspec.structs import replace
 from dynsolve.algebra.factors import is_never_zero, trig_factors
 from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.configurations import Conditions
+from dynsolve.derivation.singular.sets import TooLong, common_zeros, existence
 from dynsolve.derivation.singular.zeros import never_hold
 from dynsolve.document import Prose, Table
 from dynsolve.document.books import craig, spong
 from dynsolve.document.sentences import opened, paragraph, say
+from dynsolve.errors import AlgebraError
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, RESUMED, Detail, Line, Step
 from dynsolve.explain.step import Part as Shown
@@ -372,9 +375,25 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None, before: Sequenc
     left = [
         prod((f for f, _ in trig_factors(one) if f not in divided), start=one.ring.one) for one in factors
     ]
-    if factors and not never_hold(left):
+    if factors and not never_hold(left) and _may_be_reached(forms, left):
         zeros = [equation(forms.vanishing(factor), Number(0)) for factor in left]
         yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
+
+
+def _may_be_reached(forms: InverseForms, zeros: Sequence[Expr]) -> bool:
+    """Whether a task at which these are 0 may be that of a configuration: x = y = 0 is not, if e > l."""
+    assert forms.solved is not None
+    solving = forms.solved.solving
+    ring = solving.ring
+    try:
+        values = zip(
+            solving.values, map(Transfer(solving.task.ring, ring), solving.task.entries), strict=True
+        )
+        images = {ring.symbol_indices[name, 0]: value.poly for name, value in values}
+        found = common_zeros([ring.put(one, images) for one in zeros])
+    except (TooLong, AlgebraError):  # the ring has not every angle
+        return True
+    return any(existence(one) is not None for one in found)
 
 
 def _moves_nothing(forms: InverseForms, step: Solved, divisor: Expr) -> bool:

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
+from dynsolve.algebra.factors import is_never_zero, trig_factors
 from dynsolve.algebra.linear_systems import adjugate, quotient
 from dynsolve.algebra.matrix import determinant
+from dynsolve.document import Prose
 from dynsolve.document.books import LYNCH_PARK
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Step, not_derived
+from dynsolve.explain.step import NOTED, Detail, Step, not_derived
 from dynsolve.explain.writing import as_row, is_small, scalar
+from dynsolve.notation.build import split_sign, times
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import Negative, Node, Number, Power, equation
+from dynsolve.notation.tree import ZERO, Negative, Node, Number, Power, Relation, equation
 from dynsolve.quantities import letters
 from dynsolve.questions.forward_dynamics.explain import as_far_as_read, is_not_derived, is_too_large
 
@@ -52,7 +57,21 @@ def steps(context: Context) -> Iterator[Step]:
         notes=(("It exists where the rows of the Jacobian are independent.",),),
         detail=Detail.BRIEF,
     )
+    if exists := _exists(context):
+        step = replace(step, notes=(exists,), holds=exists, normal=NOTED)
     yield as_far_as_read(step, value)
+
+
+def _exists(context: Context) -> Prose:
+    """Where a square Jacobian has an inverse; nothing where it always has, or the Jacobian is not square."""
+    J = context.values["Jr"]
+    if J.shape[0] != J.shape[1]:
+        return ()
+    moving = [f for f, _ in trig_factors(determinant(J)) if f.ring.depends_on_coordinates(f)]
+    if all(map(is_never_zero, moving)):
+        return ()
+    _, product = split_sign(times(1, [(context.forms.of(factor), 1) for factor in moving]))
+    return say("It exists where {unequal}.", unequal=Relation((product, ZERO), ("≠",)))
 
 
 def _working(context: Context) -> tuple[Node, ...]:

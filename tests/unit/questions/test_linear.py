@@ -17,6 +17,8 @@ from dynsolve.notation.tree import Matrix, Relation, Symbol, mapped, walk
 from dynsolve.problem import read_problem
 from dynsolve.questions.equilibria.linear_check import verify_linear
 from dynsolve.questions.task_inertia.check import verify_task_inertia
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
 from tests.support import numbers, solve_json
 
 ARM = """
@@ -83,6 +85,14 @@ def test_of_a_square_jacobian() -> None:
     assert results(text)["Lambda"] == [["m1 + m2", "0"], ["0", "m2"]]
     dependent = text.replace("[tip.z, tip.y]", "[tip.z, 2*tip.z]")
     assert results(dependent)["Lambda"] == {"skipped": "the Jacobian of the task has dependent rows"}
+
+
+def test_the_inertia_of_a_task_is_told_with_the_poses_in_which_there_is_one() -> None:
+    """It is m 𝟏 of a point mass that moves everywhere, but where the arm is singular."""
+    rows = "{theta: q1*, d: h, alpha: 90deg}, {theta: q2* + 90deg, alpha: 90deg}, {d: q3*}"
+    text = f"gravity: none\ndh: [{rows}]\nmasses: [{{mass: m, link: 3}}]\nfind: [Lambda]\n"
+    told = report(dynsolve.solve(text), Format.TEXT).decode()
+    assert told.count("It exists where q₃ c₂ ≠ 0.") == 2
 
 
 @pytest.mark.parametrize(("text", "name"), [(ARM, "linear_A"), (ARM, "linear_B"), (RODS, "Lambda")])

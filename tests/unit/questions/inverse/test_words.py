@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from unicodedata import normalize
 
+import pytest
+
 import dynsolve
 from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
@@ -65,6 +67,16 @@ def test_what_always_is_and_what_never_is_are_no_conditions() -> None:
     assert "q₃ = ± √((u - l cos(w))² + (v - l sin(w))²)" in text and "has solutions where" not in text
     text = told("dh: [{theta: q1*, alpha: 45deg}, {theta: q2*, a: b, alpha: 90deg}, {d: q3*}]")
     assert "q₁ is free" not in text
+
+
+@pytest.mark.parametrize(("offset", "is_free"), [("1", True), ("3", False), ("a2 + a3 + h", False)])
+def test_a_task_that_no_configuration_reaches_frees_nothing(offset: str, is_free: bool) -> None:
+    """x = y = 0 is on the axis of joint 1, which links of lengths 1 and 1 do not reach from 3 away."""
+    lengths = ("a2", "a3") if "a2" in offset else ("1", "1")
+    rows = [f"a: {offset}, alpha: 90deg", *(f"a: {length}" for length in lengths)]
+    table = ", ".join(f"{{theta: q{k}*, {row}}}" for k, row in enumerate(rows, 1))
+    text = told(f"dh: [{table}]\nreach: [x, y, z]")
+    assert ("q₁ is free" in text) == is_free
 
 
 def test_where_an_angle_is_free_nothing_is_divided_by_0_and_positive_lengths_are_positive() -> None:
