@@ -364,7 +364,9 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
     called = quantity.family.called_of(robot).replace(" {}", "") if quantity is not None else step.title
     steady = robot.questions.model.steady if name == "equilibria" else ()
     kept = side_by_side([equation(Symbol(of, 1), value) for of, value in steady]) if steady else ""
-    of_motion = say(" with {kept}", kept=kept) if steady else ""
+    of_motion: Prose = say(" with {kept}", kept=kept) if steady else ()
+    if name == "equilibria" and robot.questions.loads:
+        of_motion = (*of_motion, " without the forces from outside")
     if not step.title.endswith(NOT_DERIVED):
         yield Text(say(f"{called[0].upper()}{called[1:]}{{of_motion}}:", of_motion=of_motion))
     unknowns = {f"{name}_{q.name}" for q in robot.coordinates} & set(step.uses or ())

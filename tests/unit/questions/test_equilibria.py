@@ -64,6 +64,12 @@ def test_a_given_model_is_stable_where_its_inertia_matrix_is_positive_definite()
     assert proviso not in read(f"{model.replace('a, b], [b, a', 'a + b, b], [b, b')}find: [equilibria]\n")
 
 
+def test_the_summary_says_that_forces_from_outside_are_left_out() -> None:
+    arm = "dh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
+    pushed = "gravity: none\nforces: [{link: 1, at: tip, force: [0, F, 0]}]\nfind: [equilibria]\n"
+    assert "The equilibria without the forces from outside:" in read(arm + pushed).partition("Summary")[2]
+
+
 @pytest.mark.parametrize("assumed", ["l > 3", "m > 1000", "m > 5, g > 20*l", "m*g > 10000*l"])
 def test_what_is_assumed_may_be_far_from_one(assumed: str) -> None:
     """It is met by none of the values that parameters have otherwise."""
