@@ -328,7 +328,7 @@ def squares(expr: Expr) -> tuple[Expr, ...]:
 def at_edge(expr: Expr) -> tuple[Expr, ...]:
     """What must be 0 where a value at the edge of its range is: 1 + c₂ and 1 + c₂₃ of l (2 + c₂ + c₂₃).
 
-    Parameters count as positive.  Nothing of what may be of both signs, or is never 0.
+    Parameters count as positive.  Nothing of what may be of both signs, or is 0 for some parameters alone.
     """
     ring, free, one = expr.ring, parameters(expr), expr.ring.one
     trig = [i for pair in ring.pairs for i in (pair.sine, pair.cosine)]
@@ -350,7 +350,8 @@ def at_edge(expr: Expr) -> tuple[Expr, ...]:
             angle = sum((pair.angle * n for pair, n in zip(ring.pairs, multiples, strict=True)), Angle.zero())
             wave = ring.sin(angle) if kind == "sin" else ring.cos(angle)
             found[one + wave if size_of * middle > 0 else one - wave] = None
-    return tuple(found) if len(signs) == 1 else ()
+    is_moving = all(map(ring.depends_on_coordinates, found))
+    return tuple(found) if len(signs) == 1 and is_moving else ()
 
 
 def halves(expr: Expr) -> tuple[tuple[Expr, ...], ...]:

@@ -179,7 +179,7 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
             above.append(power(inner, exponent))
         else:
             below.append(power(inner, -exponent))
-    coefficient = coefficient * _one_root(above)
+    coefficient = _inside(coefficient, above) * _one_root(above)
     if (front := _one_root(below)) != 1:
         coefficient = coefficient * Fraction(1, front)
     if not coefficient:
@@ -197,6 +197,33 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     else:
         node = _fraction(size, above, below)
     return Negative(node) if coefficient < 0 else node
+
+
+def _inside(coefficient: Fraction | int, factors: list[Node]) -> Fraction | int:
+    """A number with what is put of it into a sum of fractions: m/4 + n s² and not 2 (m/8 + n s²/2).
+
+    >>> from dynsolve.notation.unicode import to_unicode
+    >>> m, n, k = map(Symbol, "mnk")
+    >>> to_unicode(times(2, [(k, 1), (Sum((Quotient(m, Number(8)), Quotient(n, Number(2)))), 1)]))
+    'k (m/4 + n)'
+    """
+    sums = (i for i, factor in enumerate(factors) if isinstance(factor, Sum))
+    if coefficient.numerator in (1, -1) or (place := next(sums, None)) is None:
+        return coefficient
+    terms = summands(factors[place])
+    common = gcd(coefficient.numerator, *map(_divided_by, terms))
+    if common == 1:
+        return coefficient
+    factors[place] = total([times(common, [(term, 1)]) for term in terms])
+    return Fraction(coefficient, common)
+
+
+def _divided_by(term: Node) -> int:
+    """The number that stands below a term."""
+    match split_sign(term)[1]:
+        case Number(_, q) | Quotient(_, Number(q, 1)) | Product((Number(_, q), *_)):
+            return q
+    return 1
 
 
 def _one_root(factors: list[Node]) -> int:

@@ -229,6 +229,11 @@ def _reduced(context: Context) -> Iterator[Step]:
     if not Z.shape[1]:
         return
     right = driving_side(context, constrained=False)
+    whole = formula(
+        "𝐙ᵀ {moving} = 𝐙ᵀ {right}",
+        moving=moving_side(context),
+        right=Parenthesized(right) if isinstance(right, Sum) else right,
+    )
     free, rows = formula("𝐙 = {shown}", shown=context.show(Z)), _free_rows(context, found)
     led = "Row by row" if len(rows) > 1 else "Multiplied out"
     zeros = [equation(without_number(context.show(zero)), Number(0)) for zero in found.zeros] if rows else []
@@ -238,13 +243,9 @@ def _reduced(context: Context) -> Iterator[Step]:
         why=say(
             "The columns of $𝐙$ are the rates that the constraints leave free: $𝐀_c 𝐙 = 𝟎$. "
             "Multiplied by $𝐙ᵀ$ the equations of motion lose the forces of constraint. {more}",
-            more=_freer(context, Z) if rows else "",
+            more=_freer(context, Z) if rows else "Multiplied out they are too long to be read.",
         ),
-        formula=formula(
-            "𝐙ᵀ {moving} = 𝐙ᵀ {right}",
-            moving=moving_side(context),
-            right=Parenthesized(right) if isinstance(right, Sum) else right,
-        ),
+        formula=whole if rows else None,
         source=mls("6.1.3"),
         lines=(Line(("The free rates:",), (free,), is_kept=True),) if rows else (),
         concluding=say(
@@ -255,7 +256,7 @@ def _reduced(context: Context) -> Iterator[Step]:
         )
         if rows
         else (),
-        result=rows or (free,),
+        result=rows or (whole, free),
         uses=("Ac", "D", *acting_names(context.robot)),
     )
 
