@@ -108,7 +108,13 @@ class InverseFormulas:
         return Matrix(tuple(tuple(map(self.form, row)) for row in values.rows))
 
     def _sums_of_squares(self, step: Solved) -> Iterator[tuple[Expr, Node]]:
-        """The left sides of the equations that are sums of squares."""
+        """The left sides of the equations that are sums of squares, and those of a vector that is turned."""
+        if isinstance(step, TwoLines) and step.is_rotation:
+            lefts = [e.left for e in step.equations if not e.left.is_zero]
+            yield (
+                sum((e * e for e in lefts), start=step.determinant.ring.zero),
+                total([power(self._compact(e), 2) for e in lefts]),
+            )
         for e in step.equations:
             if isinstance(e.origin, Squared):
                 squares = [power(self._compact(p.left), 2) for p in e.origin.parts if not p.left.is_zero]

@@ -191,3 +191,11 @@ task: [tip.x, tip.y]
 find: [inverse]
 """
     assert not any("q₁ is free" in str(step.notes) for step in dynsolve.solve(offset).steps)
+
+
+def test_a_condition_has_the_squares_of_the_vector_that_is_turned() -> None:
+    """The wrist of two links is on a circle (by hand): its squares are not multiplied out."""
+    arm = "gravity: none\ndh: [{theta: q1*, a: a}, {theta: q2*, a: b}]\n"
+    asked = "task: [tip.x, tip.y, q1 + q2]\nreach: [x, y, phi]\nfind: [inverse]\n"
+    told = dynsolve.solve(arm + asked).to_markdown()
+    assert r"$(x - b \cos(\phi))^{2} + (y - b \sin(\phi))^{2} = a^{2}$ alone" in " ".join(told.split())
