@@ -217,11 +217,14 @@ def angle_node(angle: Angle, coordinates: Sequence[str] = ()) -> Node:
     return total(terms)
 
 
-def in_degrees(value: Node) -> Node:
-    """90° for π/2, as angles are given; all else as it is."""
+def in_degrees(value: Node, coordinates: Sequence[str] = ()) -> Node:
+    """90° for π/2, as angles are given, and q₁ - 90° beside coordinates; all else as it is."""
     with suppress(AlgebraError):
         angle = angle_from_tree(value)
-        return angle_node(angle) if angle.degrees and not angle.terms else value
+        is_turned = {*coordinates}.issuperset(names_of(angle)) and all(
+            len(atom) == 1 for atom, _ in angle.terms
+        )
+        return angle_node(angle, coordinates) if angle.degrees and is_turned else value
     return value
 
 

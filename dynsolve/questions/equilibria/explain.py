@@ -132,7 +132,9 @@ def _equilibria(context: Context) -> Iterator[Step]:
     steady = _is_steady(robot)
     told = [shown.relations(*both) for both in zip(found.alternatives, cases, strict=True)]
     result: tuple[Node, ...] = tuple(as_row(listed(one)) for one in told if one)
-    constrained, working = _with_constraints(context) if robot.questions.constraints else ((), ())
+    constrained, working, leaves_free = (
+        _with_constraints(context) if robot.questions.constraints else ((), (), False)
+    )
     where = _where(shown, found)
     combined = _combined(context, shown, found)
     lines = (Line(_combined_by(found, where, bool(constrained)), combined),) if combined else ()
@@ -173,7 +175,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         uses=None if steady or found.singular else ("g", "Ac", "hc") if constrained else ("g",),
         detail=Detail.BRIEF,
     )
-    if any(found.points) or (constrained and cases):
+    if (leaves_free and cases) if constrained else any(found.points):
         yield _stability(context, shown, found)
 
 
@@ -453,14 +455,14 @@ def _at_rest(robot: Robot, left: Node) -> Prose:
     )
 
 
-def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
-    """For which forces there are multipliers, and the rows that are dependent there."""
+def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...], bool]:
+    """For which forces there are multipliers, the rows that are dependent there, and if anything is free."""
     robot = context.robot
     columns, letter = wanted_rows(robot), formula("{forces}ᵀ", forces=_forces_of(robot))
     held = multipliers(robot, _forces(context), context.values["Ac"], context.values["hc"])
     order = held.rank + 1
     if order > len(columns):
-        return ("The constraints leave nothing free: what they allow is an equilibrium. ",), ()
+        return ("The constraints leave nothing free: what they allow is an equilibrium. ",), (), False
     A, g = context.form("Ac"), _shown_forces(context)
     assert isinstance(A, MatrixTree) and isinstance(g, MatrixTree)
     forces = tuple(g.rows[k][0] for k in columns)
@@ -485,6 +487,7 @@ def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...]]:
             free=free,
         ),
         tuple(shown),
+        True,
     )
 
 

@@ -125,7 +125,7 @@ class EquilibriaForms(SetForms):
         ways = sorted(found, key=lambda one: (one[0] in others, not one[2].is_number))
         solved = next((self._quotient(Symbol(name), -rest, factor) for name, rest, factor in ways), None)
         if isinstance(solved, Relation) and (ways[0][0], "revolute") in ring.coordinates:
-            return replace(solved, parts=(solved.parts[0], in_degrees(solved.parts[1])))
+            return replace(solved, parts=(solved.parts[0], in_degrees(solved.parts[1], ring.names)))
         return solved
 
     def _square(self, condition: Condition) -> Node | None:

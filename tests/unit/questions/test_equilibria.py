@@ -2128,3 +2128,21 @@ def test_an_angle_that_is_the_only_one_is_in_degrees_where_all_angles_are() -> N
     told = report(dynsolve.solve(upright), Format.TEXT).decode()
     assert "is at rest at θ = 90°" in " ".join(told.split())
     assert "it is 0 at θ = 90° alone." in told and "θ = π/2" not in told
+
+
+def test_where_constraints_leave_nothing_free_no_stability_is_spoken_of() -> None:
+    closed = (
+        "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: a}, {theta: q2*, a: b}]\nmasses: [{mass: m, link: 1}]\n"
+        "constraints: [tip.x - c, tip.y]\nfind: [equilibria]\n"
+    )
+    told = report(dynsolve.solve(closed), Format.TEXT).decode()
+    assert "The constraints leave nothing free" in told and "stable" not in told
+
+
+def test_an_angle_that_others_leave_is_told_with_degrees() -> None:
+    tilted = (
+        "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: a}, {theta: q2*, a: b}, {theta: q3*, a: a}]\n"
+        "masses: [{mass: m, link: 1}]\nconstraints: [tip.x - d, tip.y - a, q1 + q2 + q3 + pi/2]\n"
+        "find: [equilibria]\n"
+    )
+    assert "q₃ = -q₁ - q₂ - 90°" in report(dynsolve.solve(tilted), Format.TEXT).decode()
