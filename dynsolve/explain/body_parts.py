@@ -24,7 +24,13 @@ from dynsolve.explain.working.identities import (
     said,
     used_in_product,
 )
-from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity, turned
+from dynsolve.explain.working.rotational import (
+    along_own_axes,
+    angular_square,
+    base_tensor,
+    factor_of_identity,
+    turned,
+)
 from dynsolve.explain.writing import name_of, sum_of
 from dynsolve.notation.build import number_in_front
 from dynsolve.notation.tree import ZERO, Node, Parenthesized, Product, equation
@@ -78,7 +84,7 @@ def _step(context: Context, body: Body) -> Step:
         why = "Its linear part alone: it does not turn."
     linear = (equation(linear_name(context, body), factored(context, context.named(context.form(f"Dv{b}")))),)
     angular = (
-        (equation(angular_name(body), factored(context, context.named(context.form(f"Dw{b}")))),)
+        (equation(angular_name(context, body), factored(context, context.named(context.form(f"Dw{b}")))),)
         if turns
         else ()
     )
@@ -195,18 +201,21 @@ def linear_name(context: Context, body: Body) -> Node:
     return Product((context.forms.mass(body), letters.transposed_product(letters.jv(body))))
 
 
-def angular_name(body: Body) -> Node:
+def angular_name(context: Context, body: Body) -> Node:
     """J_ωᵀ 𝓘 J_ω, in letters."""
-    return letters.transposed_product(letters.jw(body), letters.base_tensor(letters.index_of(body.name)))
+    return angular_square(context, body, letters.jw(body))
 
 
 def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     """J_ωᵀ 𝓘 J_ω along the axes that the energy was worked out in: the base's, or the body's own."""
     values, b = context.values, body.name
-    J, tensor, given = values[f"Jw{b}"], values[f"I{b}"], values[f"I_body{b}"]
-    name = angular_name(body)
+    J, tensor, given = values[f"Jw{b}"], base_tensor(context, body), values[f"I_body{b}"]
+    name = angular_name(context, body)
     if not along_own_axes(context, body):
-        product = _with_tensor(context, J, tensor)
+        factor, shown = factor_of_identity(tensor), context.show(J)
+        product = letters.transposed_product(shown, context.show(tensor))
+        if factor is not None:
+            product = Product((number_in_front(context.show(factor)), letters.transposed_product(shown)))
         yield Line((), (equation(name, factored(context, product)),))
         return
     own = turned(context, body, "Jw", letters.jw(body))
@@ -222,18 +231,10 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     )
 
 
-def _with_tensor(context: Context, J: Matrix, tensor: Matrix) -> Node:
-    """Jᵀ 𝓘 J with the matrices put in; of a multiple of the identity its factor before Jᵀ J."""
-    factor = factor_of_identity(tensor)
-    if factor is None:
-        return letters.transposed_product(context.show(J), context.show(tensor))
-    return Product((number_in_front(context.show(factor)), letters.transposed_product(context.show(J))))
-
-
 def _angular_used(context: Context, body: Body) -> tuple[Identity, ...]:
     """The identities by which J_ωᵀ 𝓘 J_ω becomes what is printed."""
     values, b = context.values, body.name
-    J, tensor = values[f"Jw{b}"], values[f"I{b}"]
+    J, tensor = values[f"Jw{b}"], base_tensor(context, body)
     if along_own_axes(context, body):
         J, tensor = values[f"R{b}"].T @ J, values[f"I_body{b}"]
     left = J.T @ tensor

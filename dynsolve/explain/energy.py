@@ -13,7 +13,7 @@ from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.actions import acting_steps, potential_steps
 from dynsolve.explain.context import Context
-from dynsolve.explain.inertia import is_its_links, orientation_named
+from dynsolve.explain.inertia import axis_named, is_its_links, orientation_named
 from dynsolve.explain.jacobian import (
     BESIDE,
     ZERO,
@@ -25,12 +25,17 @@ from dynsolve.explain.jacobian import (
     read_off,
     told_read_off,
 )
-from dynsolve.explain.mass_centers import keeps_its_axis
 from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.placed_bodies import energy_steps, jacobians_step, total_energy
 from dynsolve.explain.step import STATED, WORKED, Detail, Group, Line, Part, Step, outlined
 from dynsolve.explain.working.derivatives import summed
-from dynsolve.explain.working.rotational import along_own_axes, multiplied_out, turned
+from dynsolve.explain.working.rotational import (
+    along_own_axes,
+    angular_square,
+    multiplied_out,
+    turned,
+    turning_axis,
+)
 from dynsolve.explain.working.squares import linear, squared, written_velocity
 from dynsolve.explain.writing import (
     agreeing,
@@ -94,6 +99,7 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
     parts, of_body = [letters.of_body(name, body) for body in bodies], _of_body(context, name)
     whole: Node = equation(letter, sum_of([*parts, *others]))
     is_summed = len(bodies) > 1 and not (name == "P" and context.robot.gravity.is_zero)
+    is_summed = is_summed and (name == "P" or all(turning_axis(context, body) is None for body in bodies))
     if is_summed and context.are_masses_counted:
         sign, own = split_sign(of_body)
         counted = counted_sum(own, Symbol("i"), len(bodies))
@@ -128,11 +134,7 @@ def _of_body(context: Context, name: str) -> Node:
     extended = [body for body in context.robot.bodies if not body.is_point]
     if not extended:
         return formula("½ m_i {v}", v=formula("𝐯_iᵀ 𝐯_i"))
-    tensor = letters.base_tensor(Symbol("i"))
-    if all(keeps_its_axis(context, body) for body in extended):
-        tensor = replace(letters.tensor(context.robot, extended[0]), sub=Symbol("i"))
-    w = formula("𝛚_iᵀ {I} 𝛚_i", I=tensor)
-    return formula("½ m_i {v} + ½ {w}", v=formula("𝐯_iᵀ 𝐯_i"), w=w)
+    return formula("½ m_i {v} + ½ {w}", v=formula("𝐯_iᵀ 𝐯_i"), w=formula("𝛚_iᵀ 𝓘_i 𝛚_i"))
 
 
 # -- kinetic energy --------------------------------------------------------------------------------
@@ -323,19 +325,22 @@ def _rotational(context: Context, body: Body) -> Step:
     if body.is_point:
         none = ("A point mass has no rotational energy.",)
         return replace(step, why=none, said="point mass", normal=Part.WHY | Part.RESULT)
-    tensor = letters.tensor(context.robot, body)
-    if not keeps_its_axis(context, body):
-        tensor = letters.base_tensor(letters.index_of(b))
-    energy = formula("{Kw} = ½ {product}", Kw=Kw, product=letters.transposed_product(w, tensor))
-    why = say("{w} and the tensor, both in {ground} coordinates.", w=w, ground=context.ground)
+    axis = turning_axis(context, body)
+    energy = formula("{Kw} = ½ {product}", Kw=Kw, product=angular_square(context, body, w))
+    if axis is None:
+        why = say("{w} and the tensor, both in {ground} coordinates.", w=w, ground=context.ground)
+    else:
+        of_body = axis_named(context, body, "xyz"[axis], f"the body's axis {'xyz'[axis]}")
+        alone = "{w} is parallel to {axis}, so of the tensor the moment about this axis alone enters."
+        why, uses = say(alone, w=w, axis=of_body), (f"v{b}", f"I_body{b}")
+        step = replace(step, uses=uses, said=f"turning axis {axis}", normal=STATED | Part.WHY)
     step = replace(step, why=why, hint=why, formula=energy)
     if context.values[f"w{b}"].is_zero:
         return replace(step, why=("The body does not turn.",), normal=STATED | Part.WHY)
     product, way = multiplied_out(context, body)
     working = (product,) if is_small(product) else ()
     step = replace(step, working=working, lines=way.lines, concluding=way.concluding)
-    is_along = along_own_axes(context, body) and not keeps_its_axis(context, body)
-    return _turned(context, body, step) if is_along else step
+    return _turned(context, body, step) if along_own_axes(context, body) else step
 
 
 def _turned(context: Context, body: Body, step: Step) -> Step:

@@ -11,10 +11,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from msgspec.structs import replace
-
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Expr
@@ -237,12 +236,9 @@ def _angles(robot: Robot) -> Prose:
         first, *_, last = joint.written
         for letter, angle, written in ((theta, joint.theta, first), (alpha, joint.alpha, last)):
             if angle.degrees % 90:
-                told.append((letter, f" of row {joint.index} is ", mapped(written, _without_star)))
+                bare = mapped(written, lambda node: Symbol(node.name) if isinstance(node, Symbol) else node)
+                told.append((letter, f" of row {joint.index} is ", bare))
     return ("In the table ", *listed(told), ".") if told else ()
-
-
-def _without_star(node: Node) -> Node:
-    return replace(node, star=False) if isinstance(node, Symbol) else node
 
 
 def _joints(robot: Robot) -> str:
@@ -431,7 +427,7 @@ def _tensors(forms: Forms) -> Prose:
         for body in forms.robot.bodies
         if not (body.is_point or body.density or (body.shape is not None and body.shape.formulas))
     ]
-    plain = [body for body in given if _is_diagonal(body) and not is_moved(body)]
+    plain = [body for body in given if body.inertia and is_diagonal(body.inertia) and not is_moved(body)]
     told = _moments(forms, plain)
     for body in (body for body in given if body not in plain):
         point: Inline = letters.o(body.link if body.about == "origin" else ends(forms.robot, body)[0])
@@ -495,11 +491,6 @@ def _alike(moments: Iterable[tuple[str, Expr]]) -> dict[Expr, list[str]]:
     for axis, value in moments:
         axes.setdefault(value, []).append(axis)
     return axes
-
-
-def _is_diagonal(body: Body) -> bool:
-    assert body.inertia is not None
-    return all(body.inertia[i, j].is_zero for i in range(3) for j in range(3) if i != j)
 
 
 # -- the base, and what acts -----------------------------------------------------------------------

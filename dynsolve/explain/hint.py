@@ -144,17 +144,14 @@ def _tasks(context: Context, stage: Stage) -> Iterator[Block]:
         if formula is not None and to_unicode(formula) not in map(to_unicode, step.result):
             blocks.append(Formula(formula, by_itself(step.source)))
         if others:
-            likewise = "; ".join(_lowered(_title(other)) for other in others)
-            blocks.append(Text((f"Likewise: {likewise}.",)))
+            titles = [_title(other) for other in others]
+            lowered = (title[0].lower() + title[1:] if title[1:2].islower() else title for title in titles)
+            blocks.append(Text((f"Likewise: {'; '.join(lowered)}.",)))
         yield Fold(f"{number}. {_title(step)}", tuple(blocks))
 
 
 def _title(step: Step) -> str:
     return step.hint_title or step.title
-
-
-def _lowered(title: str) -> str:
-    return title[0].lower() + title[1:] if title[1:2].islower() else title
 
 
 # -- the most frequent mistakes of a stage that can be made with this robot ------------------------

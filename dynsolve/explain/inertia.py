@@ -11,6 +11,7 @@ from itertools import combinations_with_replacement
 from msgspec.structs import replace
 
 from dynsolve.algebra import matrix as algebra
+from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.derivation import link_frame
 from dynsolve.document import Prose, Reference
 from dynsolve.document.books import GIVEN, LYNCH_PARK, spong
@@ -18,12 +19,12 @@ from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.kinematics import product_of_axes, why_axes
-from dynsolve.explain.mass_centers import density_step, keeps_its_axis, mass_center_step, turning_of
+from dynsolve.explain.mass_centers import density_step, mass_center_step, turning_of
 from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.parameter_meanings import SHAPES, letters_of, shape_letters
 from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.step import TOLD, Detail, Group, Part, Step
-from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
+from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity, turning_axes
 from dynsolve.explain.writing import is_small, listed, measured, name_of, side_by_side
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
@@ -131,7 +132,7 @@ def _tensor(context: Context, body: Body) -> Step:
 def _entries(context: Context, body: Body, tensor: Node) -> tuple[Node, ...]:
     """The entries of a tensor that is given in part; none of others."""
     assert body.inertia is not None
-    axes = _entering(context, body)
+    axes = axes_given(context, body)
     places = [("xyz".index(a), "xyz".index(b)) for a, b in combinations_with_replacement(axes, 2)]
     return tuple(
         equation(Entry(tensor, Words("xyz"[i] + "xyz"[j])), context.show(body.inertia[i, j]))
@@ -146,7 +147,7 @@ _Told = tuple[Node | None, tuple[Node, ...], Prose, str]
 
 def _given(context: Context, body: Body, about: str) -> _Told:
     assert body.inertia is not None
-    if entering := _entering(context, body):
+    if entering := axes_given(context, body):
         return None, (), _left_out(context, body, entering, about), f"tensor {entering, about}"
     zero = tuple(entry.is_zero for entry in body.inertia.entries)
     if context.values[f"Jw{body.name}"].is_zero:
@@ -163,19 +164,19 @@ def _given(context: Context, body: Body, about: str) -> _Told:
     return None, (), why, f"tensor {is_moved(body), _in_frame(context, body), zero}"
 
 
-def _entering(context: Context, body: Body) -> list[str]:
+def axes_given(context: Context, body: Body) -> list[str]:
     """The body's axes about which it turns, where its tensor is 0 for all others; none else."""
     if body.inertia is None or body.shape is not None or body.density is not None:
         return []
     if all(any(row) for row in _filled(body.inertia)):
         return []
-    turning = context.values[f"R{body.name}"].T @ context.values[f"Jw{body.name}"]
-    still = [i for i in range(3) if all(entry.is_zero for entry in turning.rows[i])]
+    turning = turning_axes(context, body)
+    still = [i for i in range(3) if i not in turning]
     if not still or not all(e.is_zero for i in still for e in body.inertia.rows[i]):
         return []
-    if any(body.inertia[i, i].is_zero for i in range(3) if i not in still):  # a moment that is not given
+    if any(body.inertia[i, i].is_zero for i in turning):  # a moment that is not given
         return []
-    found = [name for i, name in enumerate("xyz") if i not in still]
+    found = ["xyz"[i] for i in turning]
     return [] if is_moved(body) and len(found) > 1 else found  # its products would have to be brought there
 
 
@@ -186,7 +187,7 @@ def _filled(tensor: algebra.Matrix) -> list[list[bool]]:
 
 def _left_out(context: Context, body: Body, entering: list[str], about: str) -> Prose:
     """What is given of a tensor that is 0 where Rᵀ J_ω has a row of zeros: the body never turns so."""
-    shown = [_axis(context, body, name, f"its axis {name}") for name in entering]
+    shown = [axis_named(context, body, name, f"its axis {name}") for name in entering]
     entries, along, otherwise = "what belongs to ", "has components along these axes alone", ""
     if len(entering) == 1:
         entries, along = "the moment about ", "is parallel to that axis"
@@ -207,11 +208,11 @@ def _left_out(context: Context, body: Body, entering: list[str], about: str) -> 
 
 def _principal(context: Context, body: Body, tensor: algebra.Matrix) -> Prose:
     """That the axes of a given tensor are principal, where its products of inertia are zero."""
-    if any(not tensor[i, j].is_zero for i in range(3) for j in range(3) if i != j):
+    if not is_diagonal(tensor):
         return ()
     told: Prose = (" They are principal axes: there are no products of inertia.",)
     absent = [
-        _axis(context, body, name, f"its {name}") for i, name in enumerate("xyz") if tensor[i, i].is_zero
+        axis_named(context, body, name, f"its {name}") for i, name in enumerate("xyz") if tensor[i, i].is_zero
     ]
     if absent:
         moments = "moments about {axes} are" if len(absent) > 1 else "moment about {axes} is"
@@ -224,7 +225,7 @@ def _in_frame(context: Context, body: Body) -> bool:
     return context.robot.has_table and has_link_axes(body)
 
 
-def _axis(context: Context, body: Body, name: str, otherwise: str) -> Prose:
+def axis_named(context: Context, body: Body, name: str, otherwise: str) -> Prose:
     """An axis of a body: 𝐳₁ of its link's frame, 𝐳₀ where it stays with this, else what it is called."""
     if _in_frame(context, body):
         return (Letter(name, letters.index_of(str(body.link)), style="bold"),)
@@ -263,7 +264,7 @@ def _shape(context: Context, body: Body) -> _Told | None:
     given = [equation(sign, value) for sign, value in values.items() if sign != value]
     axis: Prose = ()
     if shape.axis:
-        along = _axis(context, body, shape.axis, f"{shape.axis} of the body's frame")
+        along = axis_named(context, body, shape.axis, f"{shape.axis} of the body's frame")
         axis = say(", its own axis along {along}", along=along)
     why = say(
         "{body} is a uniform {shape}{axis}. Its principal moments about the mass centre:",
@@ -276,7 +277,7 @@ def _shape(context: Context, body: Body) -> _Told | None:
 
 def _parallel_axis(context: Context, body: Body) -> Step:
     """The tensor brought to the mass centre, or of one that enters by an axis alone the moment about that."""
-    b, axes = body.name, _entering(context, body)
+    b, axes = body.name, axes_given(context, body)
     relative = link_frame.axes_in_link(context.robot, body, context.values[f"H{body.link}"])
     assert body.about_point is not None
     offset = relative.T @ (body.center - body.about_point)
@@ -345,7 +346,9 @@ def lies_as_drawn(body: Body) -> bool:
 def _rotation(context: Context, body: Body, tells: bool) -> Step:
     R = letters.of_body("R", body, "bold")
     why, product, notes = _orientation(context, body)
-    is_unneeded = _is_kept(context, body) and f"R{body.name}" not in context.wanted
+    is_known = has_link_axes(body) or bool(axes_given(context, body))
+    is_unneeded = _is_kept(context, body) or (is_known and len(turning_axes(context, body)) < 2)
+    is_unneeded &= f"R{body.name}" not in context.wanted
     return Step(
         id=f"R{body.name}",
         title=f"Orientation of {name_of(body)}",
@@ -424,7 +427,7 @@ def _base_tensor(context: Context, body: Body) -> Step:
     why = "{w} will be written in {ground} coordinates, so the tensor must be, too: {leads}{turning}"
     if is_kept:
         why = "{turning}"
-    elif context.values[f"w{b}"].is_zero:
+    elif len(turning_axes(context, body)) < 2:
         why = "{leads}{turning}"
     elif detail is Detail.FULL:
         below = "Below the energy is worked out along the body's own axes, where the tensor is {I}."
@@ -450,18 +453,15 @@ def _base_tensor(context: Context, body: Body) -> Step:
         concluding=turning.concluding,
         result=(equation(name, *same, factored(context, base)),),
         normal=Part.WHY | Part.FORMULA if same else TOLD,
-        notes=turning.notes,
-        said=f"turned tensor {turning.axis}" if turning.axis else "",
         uses=(f"I_body{b}",) if is_kept else None,
         detail=detail,
     )
 
 
 def _detail(context: Context, body: Body, base: Node) -> Detail:
-    """Of a body that does not turn, or whose energy is found along its own axes, 𝓘 is shown if asked for."""
-    is_unneeded = along_own_axes(context, body) or keeps_its_axis(context, body)
-    is_unneeded |= context.values[f"w{body.name}"].is_zero
-    if is_unneeded and f"I{body.name}" not in context.wanted:
+    """𝓘 is shown only if asked for, where the energy needs the moments about axes of the body alone."""
+    is_needed = len(turning_axes(context, body)) > 1 and not along_own_axes(context, body)
+    if not is_needed and f"I{body.name}" not in context.wanted:
         return Detail.FULL
     is_unturned = context.values[f"I{body.name}"] == context.values[f"I_body{body.name}"]
     return Detail.BRIEF if is_small(base) and not is_unturned else Detail.NORMAL

@@ -255,20 +255,18 @@ def other_end(robot: Robot, body: Body | Place) -> tuple[int, algebra.Matrix] | 
 class Turning(Struct, frozen=True):
     """How R I Rᵀ comes about: what is said of it, its lines, and the identities that lead to the result.
 
-    `same` is the tensor that it is equal to, where the rotation does not change it, being about its `axis`.
+    `same` is the tensor that it is equal to, where no rotation changes that.
     """
 
     lines: tuple[Node, ...]
     why: Prose = ()
     concluding: Prose = ()
-    notes: tuple[Prose, ...] = ()
     same: Letter | None = None
-    axis: str = ""
 
 
 def turning_of(context: Context, body: Body, R: Letter) -> Turning:
-    """By the factor of the identity, by an axis of symmetry, or by two products of matrices."""
-    factor, axis = factor_of_identity(context.values[f"I_body{body.name}"]), _axis_of_symmetry(context, body)
+    """By the factor of the identity, or by two products of matrices."""
+    factor = factor_of_identity(context.values[f"I_body{body.name}"])
     if factor is not None:
         return Turning(
             (formula("{k} {R} {R}ᵀ", k=number_in_front(context.show(factor)), R=R),),
@@ -279,30 +277,10 @@ def turning_of(context: Context, body: Body, R: Letter) -> Turning:
             ),
             same=letters.tensor(context.robot, body),
         )
-    if axis is not None:
-        alone = sum(not entry.is_zero for entry in context.values[f"I_body{body.name}"].entries) == 1
-        kept = f"the moment about {axis} alone enters" if alone else f"the moments across {axis} are equal"
-        words = f" Here {{R}} is a rotation about {axis}, and {kept}, so the tensor stays as it is."
-        return Turning((), say(words, R=R), same=letters.tensor(context.robot, body), axis=axis)
     b, lines = body.name, tuple(_turned(context, body))
     rotation, given, base = (context.values[name] for name in (f"R{b}", f"I_body{b}", f"I{b}"))
     named = product_named(context, rotation, given @ rotation.T, base) if lines else ()
-    is_kept = context.form(f"I{b}") == context.form(f"I_body{b}")
-    return Turning(lines, (), named, (("This rotation does not change the tensor.",),) if is_kept else ())
-
-
-def _axis_of_symmetry(context: Context, body: Body) -> str | None:
-    """The axis of the body that R turns about, where the tensor is the same about all axes across it."""
-    R, tensor = context.values[f"R{body.name}"], context.values[f"I_body{body.name}"]
-    one, unturned = R[0, 0].ring.one, algebra.Matrix.identity(R[0, 0].ring, 3)
-    if R @ tensor @ R.T != tensor or unturned == R:
-        return None
-    return next((name for k, name in enumerate("xyz") if R[k, k] == one), None)
-
-
-def keeps_its_axis(context: Context, body: Body) -> bool:
-    """Whether a body that is given by its position turns about an axis that stands still, so that 𝓘 = 𝐈."""
-    return not context.robot.has_table and _axis_of_symmetry(context, body) is not None
+    return Turning(lines, (), named)
 
 
 def _turned(context: Context, body: Body) -> Iterator[Node]:

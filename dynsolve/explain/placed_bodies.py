@@ -17,11 +17,11 @@ from dynsolve.document.sentences import opened, say
 from dynsolve.explain.actions import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import QUADRATIC, is_too_long
-from dynsolve.explain.mass_centers import keeps_its_axis
 from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.named_steps import Ending, ending
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.identities import SILENT, Way
+from dynsolve.explain.working.rotational import turning_axis
 from dynsolve.explain.writing import flat, is_small, listed, name_of, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import times, total
@@ -65,7 +65,7 @@ def orientation_step(context: Context, body: Body) -> Step:
         result=(equation(R, context.form(f"R{body.name}")),),
         uses=(),
         detail=Detail.FULL
-        if keeps_its_axis(context, body) and f"R{body.name}" not in context.wanted
+        if turning_axis(context, body) is not None and f"R{body.name}" not in context.wanted
         else Detail.NORMAL,
     )
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from msgspec.structs import asdict, replace
 
+from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.document import Prose
 from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
@@ -84,7 +85,7 @@ def direct(context: Context) -> Iterator[Step]:
 def inertia(context: Context) -> Step:
     """D, read off from the forces."""
     robot, n, D = context.robot, context.robot.n, context.values["D"]
-    is_diagonal = n > 1 and all(D[i, j].is_zero for i in range(n) for j in range(n) if i != j)
+    decoupled = n > 1 and is_diagonal(D)
     forces = listed([letters.force(q) for q in robot.coordinates])
     is_force = not robot.actions.passive and driving_side(context) == letters.TAU
     end = ending(context, "D", {"D": (letters.D,)})
@@ -100,7 +101,7 @@ def inertia(context: Context) -> Step:
             if all(map(turns, robot.coordinates))
             else say("the generalized force $τ_i$, entry $i$ of $𝛕$ ({forces})", forces=forces),
             diagonal=" Here it is diagonal: no acceleration enters the force of another coordinate."
-            if is_diagonal
+            if decoupled
             else "",
         ),
         formula=formula("d_ij = ∂τ_i/∂q̈_j") if is_force else None,
@@ -172,7 +173,7 @@ def _inertia_direct(context: Context) -> Step:
     names = and_joined([body.name for body in robot.bodies])
     terms: list[Node] = []
     for body in robot.bodies:
-        terms += [linear_name(context, body), *(() if body.is_point else (angular_name(body),))]
+        terms += [linear_name(context, body), *(() if body.is_point else (angular_name(context, body),))]
     rotors = (letters.DM,) if robot.actions.rotors else ()
     return Step(
         id="D_direct",

@@ -262,6 +262,18 @@ def _one_turn(m: Mechanism, s: Sentence) -> bool:
     return not m.changes(lambda p: m.result(f"Jw{s.body}", p), m.coordinates)
 
 
+@says("{} is parallel to [{}][the body's axis #], so of the tensor the moment about this axis alone enters.")
+def _turns_about_an_axis(m: Mechanism, s: Sentence) -> bool:
+    """ω keeps to one axis of the body, the same in all states: the named one, where it is a frame's."""
+    turned = [
+        np.ravel(np.transpose(m.result(f"R{s.body}", p)) @ m.result(f"w{s.body}", p)) for p in m.points()
+    ]
+    if sum(not near([w[k] for w in turned], 0) for k in range(3)) != 1:
+        return False
+    named = [[np.ravel(m.value(part, p)) for part in s.formulas] for p in m.points()]
+    return all(near(np.cross(both[0], both[-1]), 0) for both in named)
+
+
 @says(
     "The angular velocity is parallel to that axis, so nothing else enters, and ...",
     "The angular velocity has components along these axes alone, so nothing else enters, and ...",

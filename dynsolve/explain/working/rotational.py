@@ -1,8 +1,9 @@
 """The lines from ½ ωᵀ 𝓘 ω to the kinetic energy of rotation, along the axes in which they are short.
 
+Where ω is always parallel to an axis of the body, the moment about it is enough (`turning_axis`).  Else
 𝓘 = R I Rᵀ is the tensor along the axes of the base.  Where it varies with the configuration, ω is
-brought to the body's own axes instead (`own_axes`), along which the tensor is the constant one that is given:
-ωᵀ 𝓘 ω = (Rᵀ ω)ᵀ I (Rᵀ ω), and in the same way J_ωᵀ 𝓘 J_ω.
+brought to the body's own axes instead (`along_own_axes`), along which the tensor is the constant one that is
+given: ωᵀ 𝓘 ω = (Rᵀ ω)ᵀ I (Rᵀ ω), and in the same way J_ωᵀ 𝓘 J_ω.
 """
 
 from __future__ import annotations
@@ -15,7 +16,6 @@ from msgspec import Struct
 from dynsolve.algebra.compact.collect import matrix_factor
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
-from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Line
@@ -27,16 +27,27 @@ from dynsolve.explain.working.identities import (
     identities,
     product_line,
     said,
-    used_in_product,
 )
 from dynsolve.explain.working.squares import turn_of_frame, turned_name, without_signs
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import factors_of, number_in_front, times
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import ONE, ZERO, Letter, Node, Product, Transpose, equation
+from dynsolve.notation.tree import ONE, ZERO, Entry, Letter, Node, Product, Transpose, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Robot
+
+
+def turning_axes(context: Context, body: Body) -> list[int]:
+    """The axes of a body along which 𝛚 has components: the rows of Rᵀ J_ω that are not 0."""
+    own = context.values[f"R{body.name}"].T @ context.values[f"Jw{body.name}"]
+    return [k for k, row in enumerate(own.rows) if not all(entry.is_zero for entry in row)]
+
+
+def turning_axis(context: Context, body: Body) -> int | None:
+    """The axis of a body that 𝛚 is always parallel to: of the tensor the moment about it alone enters."""
+    axes = [] if body.is_point else turning_axes(context, body)
+    return axes[0] if len(axes) == 1 else None
 
 
 def along_own_axes(context: Context, body: Body) -> bool:
@@ -51,8 +62,8 @@ def along_own_axes(context: Context, body: Body) -> bool:
 
 
 def _is_turned(context: Context, body: Body) -> bool:
-    """Whether a body turns, and the moments about its axes are not all equal."""
-    if body.is_point or context.values[f"w{body.name}"].is_zero:
+    """Whether a body turns, about no one of its axes, and the moments about these are not all equal."""
+    if body.is_point or len(turning_axes(context, body)) < 2:
         return False
     return factor_of_identity(context.values[f"I_body{body.name}"]) is None
 
@@ -77,7 +88,24 @@ def _in_axes(context: Context, body: Body, *, own: bool) -> tuple[Matrix, Matrix
     values, b = context.values, body.name
     if own:
         return values[f"I_body{b}"], values[f"R{b}"].T @ values[f"w{b}"]
-    return values[f"I{b}"], values[f"w{b}"]
+    return base_tensor(context, body), values[f"w{b}"]
+
+
+def base_tensor(context: Context, body: Body) -> Matrix:
+    """𝓘; where ω is always parallel to an axis of the body, the moment about that times the identity."""
+    axis = turning_axis(context, body)
+    name = f"I{body.name}" if axis is None else f"I_body{body.name}"
+    tensor: Matrix = context.values[name]
+    return tensor if axis is None else tensor.identity(tensor.ring, 3).scale(tensor[axis, axis])
+
+
+def angular_square(context: Context, body: Body, turning: Node) -> Product:
+    """xᵀ 𝓘 x of ω or J_ω, in letters; where ω is always parallel to an axis of the body, (I)_zz xᵀ x."""
+    axis = turning_axis(context, body)
+    if axis is None:
+        return letters.transposed_product(turning, letters.base_tensor(letters.index_of(body.name)))
+    moment = Entry(letters.tensor(context.robot, body), Words("xyz"[axis] * 2))
+    return Product((moment, *letters.transposed_product(turning).factors))
 
 
 def _terms_needed(w: Matrix, tensor: Matrix) -> int:
@@ -145,16 +173,10 @@ def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turne
     b, R = body.name, letters.of_body("R", body, "bold")
     rotation, value = ((context.values[key], context.form(key)) for key in (f"R{b}", f"{quantity}{b}"))
     own, whole = rotation[0].T @ value[0], Product((Transpose(R), letter))
-    if own == value[0]:
-        text = "{R} turns about the axis of {x}, and leaves it as it is:"
-        if quantity != "w":
-            text = "{R} turns about the axis of the columns of {x}, and leaves them as they are:"
-        return Turned(own, whole, (Line(say(text, R=R, x=letter), (equation(whole, letter),)),), f"R{b}")
     if not context.is_short:
         by = say("Along the body's own axes, multiplied out:")
         return Turned(own, whole, (Line(by, (equation(whole, context.show(own)),)),), f"R{b}")
-    w = context.values[f"w{b}"]  # by one product, where that needs no identity
-    if leans(context.robot) and used_in_product(context, rotation[0].T, w, rotation[0].T @ w):
+    if leans(context.robot):
         return Turned(own, whole, tuple(_by_frame_0(context, body, quantity, letter)), "H0")
     line = product_line(context, "Along the body's own axes", [whole], rotation, value)
     return Turned(own, whole, (line,), f"R{b}")
@@ -177,39 +199,16 @@ def _by_frame_0(context: Context, body: Body, quantity: str, letter: Letter) -> 
     whole = Product((Transpose(R), letter))
     turned_back = formula("({axes})ᵀ ({vector})", axes=axes, vector=in_frame)
     rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
-    is_kept, is_first = seen.T @ along == along, quantity == "w"
-    given = (f"v{b}" if is_first else f"Jv{b}#2", "H0") if is_kept else ()
-    yield product_line(context, "Along the axes of frame 0", [in_frame], base, value, given)
-    made = _table_factors(context, body, seen)
-    if is_kept:
-        same = equation(whole, turned_back, in_frame)
-        by = say(
-            "{axes} {turns} about the axis of {these}, so its transpose leaves {them}. With ${R} {R}ᵀ$, the "
-            "identity, between the factors:",
-            axes=axes,
-            turns=_turns(context, body, made),
-            these="this vector" if is_first else "these columns",
-            them="it as it is" if is_first else "them as they are",
-            R=letters.R(context.robot, 0),
-        )
-        yield Line(by, (same,), (f"R{b}", *rows))
-        return
     label = f"R{b}-from-frame-0"
-    if is_first:
+    yield product_line(context, "Along the axes of frame 0", [in_frame], base, value)
+    if quantity == "w":
+        made = _table_factors(context, body, seen)
         made_of = () if made is None else say(", the rotation of {made}", made=made)
         by = say("The body's axes seen from frame 0{made_of}", made_of=made_of)
         yield product_line(context, by, [axes], base, rotation, ("H0", f"R{b}", *rows), label)
     by = say("From there along the body's own axes, by {axes}", axes=axes)
     turn, vector = ((each, context.show(each)) for each in (seen, along))
     yield product_line(context, by, [whole, turned_back], turn, vector, (label,))
-
-
-def _turns(context: Context, body: Body, made: Node | None) -> Prose:
-    """How the body's axes, seen from frame 0, turn: by the rotation of A_1 A_2, where that is so."""
-    if made is None:
-        return ("turns",)
-    H, H0 = (letters.H(context.robot, link) for link in (body.link, 0))
-    return say("is the rotation of {made}, as ${H} = {H0} {made}$, and turns", made=made, H=H, H0=H0)
 
 
 def _table_factors(context: Context, body: Body, seen: Matrix) -> Node | None:

@@ -143,17 +143,6 @@ def test_an_energy_begins_with_no_minus() -> None:
     assert to_unicode(_without_minus(tree.Negative(read("(a + b)*x^2").tree))) == "-(a + b) x²"
 
 
-def test_an_angular_velocity_that_takes_one_product_takes_one() -> None:
-    shown = page("""
-gravity: [0, 0, -g]
-base: Rz(30deg)
-dh: [{d: q1*, alpha: 90deg}, {theta: q2*, a: l}]
-masses: [{mass: m, link: 2, center: midpoint, inertia: {xx: A, yy: B, zz: C}}]
-find: [K]
-""")
-    assert "𝐑₁ᵀ 𝛚₁ =" in shown and "from frame 0" not in shown
-
-
 def test_the_tensor_of_a_body_that_does_not_turn_is_not_turned() -> None:
     body = "masses: [{mass: m, link: 1, center: origin, inertia: {xx: A, yy: B, zz: C}}]\n"
     assert "𝐈₁ 𝐑₁ᵀ" not in page("dh: [{theta: 90deg, d: q1*, alpha: 90deg}]\n" + body)

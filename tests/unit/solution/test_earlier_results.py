@@ -51,7 +51,7 @@ USED = [
     ("Column 2 of the Jacobian", ("axes-2", "axes-4")),  # z₁ × (o₃ - o₁): z₁, o₁ are in the second
     ("Jacobians of the mass centre of body 2", ("axes", "axes-2", "rc2")),
     ("Translational kinetic energy of body 2", ("v2",)),
-    ("Rotational kinetic energy of body 1", ("w1", "R1", "I_body1")),  # along the axes of the body
+    ("Rotational kinetic energy of body 1", ("w1", "I_body1")),  # about one of its axes
     ("Rotational kinetic energy of body 2", ("w2", "R2", "I_body2")),
     ("What body 2 adds to the inertia matrix: the linear part", ("Jv2",)),
     ("What body 2 adds to the inertia matrix: the rotational part", ("Jw2", "R2", "I_body2")),

@@ -56,7 +56,7 @@ def shown(node: Node) -> str:
         ("g", "𝐠 = [[15.696 c₁ + 4.7088 c₁₂], [4.7088 c₁₂]] N m"),
         ("rc1", "𝐫_c1 = [[0.25 c₁], [0.25 s₁], [0]] m"),
         ("v1", "𝐯₁ = [[-0.25 s₁ q̇₁], [0.25 c₁ q̇₁], [0]] m/s"),
-        ("Dw1", "𝐉_ω1ᵀ 𝓘₁ 𝐉_ω1 ≈ [[0.0520833, 0], [0, 0]] kg m²"),
+        ("D_direct1", "m₁ 𝐉_v1ᵀ 𝐉_v1 = [[0.15625, 0], [0, 0]] kg m²"),
         ("Cqd", "𝐂 𝐪̇ = [[-0.24 s₂ (2q̇₁ q̇₂ + q̇₂²)], [0.24 s₂ q̇₁²]] N m"),
         ("C", "𝐂 = [[-0.24 s₂ q̇₂, -0.24 s₂ (q̇₁ + q̇₂)], [0.24 s₂ q̇₁, 0]] kg m²/s"),
         ("H1", "𝐇₁⁰ = 𝐀₁ = [[c₁, -s₁, 0, 0.5 c₁], [s₁, c₁, 0, 0.5 s₁], [0, 0, 1, 0], [0, 0, 0, 1]]"),
@@ -89,8 +89,8 @@ gravity: [0, -9.81, 0]
 
 
 def test_a_line_keeps_the_steps_that_go_into_it() -> None:
-    (line,) = (line for line in steps()["Kw1"].lines if line.uses)
-    assert line.uses == ("I_body1",)
+    (line,) = (line for line in steps()["skew"].lines if line.uses)
+    assert line.uses == ("D",)
 
 
 def test_of_a_sum_the_number_that_comes_out_has_its_unit() -> None:
