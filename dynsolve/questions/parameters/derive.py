@@ -89,24 +89,34 @@ def _names(ring: Ring, g: Generator) -> frozenset[str]:
 def minimal_parameters(robot: Robot, forces: Matrix) -> Matrix | Skipped:
     """a, p×1, of minimal length with forces = Y a; the entries are as short as they are found.
 
-    They stand in the order in which they come into the equations: those that accelerate the
-    first coordinate first.
+    An unknown that motions tell by itself is an entry: of rods of known lengths, each mass.  They stand in
+    the order in which they come into the equations: those that accelerate the first coordinate first.
     """
     split = _split(robot, forces)
     found = coefficients(vector for row in split for _, vector in row)
     if len(found) > MOST_COEFFICIENTS:
         return Skipped(TOO_MANY)
-    span, chosen = ParameterSpan(robot.ring), list[Vector]()
-    for vector in found:
-        if not span.has(vector):
-            chosen.append(shortened(vector, chosen))
-            span.add(chosen[-1])
+    span, chosen = _basis(robot.ring, found)
+    unknown = {key: None for vector in found for key in vector}
+    alone = [one for key in unknown if span.has(one := {key: robot.ring.one})]
+    if not all(one in chosen for one in alone):
+        _, chosen = _basis(robot.ring, [*alone, *found])
     columns = _columns(robot.ring, split, chosen)
     assert columns is not None
     order = sorted(
         range(len(chosen)), key=lambda k: _place(robot.ring, [row[k].numerator for row in columns])
     )
     return Matrix.column(robot.ring, [expression(robot.ring, chosen[k]) for k in order])
+
+
+def _basis(ring: Ring, vectors: Iterable[Vector]) -> tuple[ParameterSpan, list[Vector]]:
+    """What some vectors span, and a basis of it, each shortened by those before it."""
+    span, chosen = ParameterSpan(ring), list[Vector]()
+    for vector in vectors:
+        if not span.has(vector):
+            chosen.append(shortened(vector, chosen))
+            span.add(chosen[-1])
+    return span, chosen
 
 
 def reference_forces(robot: Robot, D: Matrix, C: Matrix, gravity: Matrix) -> Matrix:

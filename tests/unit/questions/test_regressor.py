@@ -41,6 +41,23 @@ def of_library(stem: str, known: str) -> tuple[Robot, Derivation]:
     return solved("\n".join((*kept, f"parameters: {{known: [{known}]}}", "find: [Y, a]", "")))
 
 
+def test_an_unknown_that_motions_tell_by_itself_is_an_entry() -> None:
+    """Rods and a load of unknown masses, lengths known: none stands with another, M₁ p² - M₃ (3p² - q²)."""
+    rods = """
+gravity: none
+dh: [{theta: q1*, a: p}, {theta: q2*, a: q}]
+masses:
+  - {mass: M1, link: 1, center: midpoint, shape: {rod: {length: p}}}
+  - {mass: M2, link: 2, center: midpoint, shape: {rod: {length: q}}}
+  - {mass: M3, link: 2, center: tip}
+parameters: {known: [p, q]}
+find: [Y, a]
+"""
+    robot, values = solved(rods)
+    assert {*values["a"].entries} == {robot.ring.symbol(name) for name in ("M1", "M2", "M3")}
+    assert values["Y"] @ values["a"] == values["tau"]
+
+
 @pytest.mark.parametrize(
     ("stem", "known", "length"),
     [
