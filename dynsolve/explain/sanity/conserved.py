@@ -93,12 +93,10 @@ def _of_energy(context: Context) -> Line | None:
 
 def _of_power(context: Context) -> Prose:
     driving = driving_side(context, constrained=False)
-    if (
-        driving == letters.TAU
-        and len(context.robot.actions.passive) == context.robot.n
-        and not context.robot.actions.resisting
-    ):
-        return ("No motor drives: the energy is conserved. ",)
+    if driving == letters.TAU and len(context.robot.actions.passive) == context.robot.n:
+        by_friction = "friction alone changes the energy, and takes it away"
+        what = by_friction if context.robot.actions.resisting else "the energy is conserved"
+        return (f"No motor drives: {what}. ",)
     rest = " alone: as long as ${driving} = 𝟎$ it is conserved. "
     if context.robot.actions.resisting:
         rest = " and of friction, which takes energy away. "

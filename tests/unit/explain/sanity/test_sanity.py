@@ -80,6 +80,19 @@ def test_what_is_conserved(problem: str, told: str) -> None:
     assert words((*step.why, *step.concluding)).endswith(told)
 
 
+@pytest.mark.parametrize(
+    ("friction", "told"),
+    [
+        ("", "the energy is conserved. "),
+        ("friction: {x: c}\n", "friction alone changes the energy, and takes it away. "),
+    ],
+)
+def test_where_no_motor_drives_there_is_no_power_of_one(friction: str, told: str) -> None:
+    cart = "gravity: none\nmodel: {coordinates: {x: prismatic}, bodies: [{mass: M, at: [x, 0, 0]}]}\n"
+    step = next(sanity_steps(context(f"{cart}passive: [x]\n{friction}")))
+    assert f"No motor drives: {told}" in words((*step.why, *step.concluding))
+
+
 SKATE = """
 gravity: [-g, 0, 0]
 model:
