@@ -900,7 +900,7 @@ def _axes_meet(m: Mechanism, s: Sentence) -> bool:
 
 @says(
     "Where the matrix of <the|its> second derivatives[ of the <potential energy|energy {}, the ...>], "
-    "without the row<|s> and column<|s> of {&}, which are 0 there, is positive definite, the "
+    "without the row<|s> and column<|s> of {&}, which are 0 there,[ for every {&}] is positive definite, the "
     "<equilibrium|motion> is stable[...]."
 )
 def _rows_are_0(m: Mechanism, s: Sentence) -> bool:

@@ -538,7 +538,9 @@ def _of_special_forces(shown: EquilibriaForms, case: SpecialCase, where: Node) -
 def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> Step:
     robot = context.robot
     steady = _is_steady(robot)
-    forces, flat = _forces(context), _flat(robot, found)
+    forces = _forces(context)
+    curved = linearization.curvature(robot, forces)
+    flat = _flat(robot, found, curved)
     why: Prose = say(_ENERGY, of="potential energy", flat=flat)
     if robot.questions.model.inputs_given:
         of = say(f"energy $𝒫 - 𝛕ᵀ 𝐪$, the forces of the motors staying as they are{'' if flat else ','}")
@@ -564,7 +566,7 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
         why += (f"{' ' * bool(why)}{_MEETING}",) if any(meeting) else ()
         lines = tuple(line for point, place in told for line in _along(shown, point, place))
     else:
-        curvature = context.show(linearization.curvature(robot, forces))
+        curvature = context.show(curved)
         second = formula("∂{forces}/∂𝐪", forces=_forces_of(robot))
         working = (*working, *([equation(second, curvature)] if is_small(curvature) else []))
     sentences = [*(_verdict(context, shown, found, *one) for one in told), *([more] if more else [])]
@@ -574,9 +576,7 @@ def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> S
         sentences.append(say(_DEFINITE))
     slid = _held_by_friction(robot)
     if slid and any(point.stability is not Stability.STABLE for point, _ in told):
-        holds = not robot.questions.constraints and _can_hold(
-            context, linearization.curvature(robot, forces), slid
-        )
+        holds = not robot.questions.constraints and _can_hold(context, curved, slid)
         sentences.append(say(_NOT_HELD, held=_CAN_HOLD if holds else ""))
     return Step(
         id="equilibria_stability",
@@ -607,15 +607,27 @@ _ENERGY = (
 )
 
 
-def _flat(robot: Robot, found: Equilibria) -> Prose:
-    """Of which coordinates rows and columns are left out, as these are 0 wherever stability is told."""
+def _flat(robot: Robot, found: Equilibria, curved: Matrix) -> Prose:
+    """Of which coordinates rows and columns are left out, as these are 0 wherever stability is told.
+
+    Where the rest depends on some of them, it must be what it is to be for every value.
+    """
     told = [point for points in found.points for point in points if point.is_told]
     places = [set[int]() if point.drifts else {*point.neutral} for point in told]
     names = [robot.coordinates[k].name for k in sorted(set.intersection(*places))] if places else []
     if not names:
         return ()
     rows = "row and column" if len(names) == 1 else "rows and columns"
-    return say(f", without the {rows} of {{names}}, which are 0 there,", names=listed([*map(Symbol, names)]))
+    inside = [
+        Symbol(name)
+        for name in names
+        if any(not robot.ring.diff(entry, robot.ring.names.index(name)).is_zero for entry in curved.entries)
+    ]
+    return say(
+        f", without the {rows} of {{names}}, which are 0 there,{{ever}}",
+        names=listed([*map(Symbol, names)]),
+        ever=say(" for every {inside}", inside=listed(inside)) if inside else "",
+    )
 
 
 def _of_constrained(

@@ -438,6 +438,22 @@ def test_what_nothing_changes_along_is_left_out_of_the_matrix_and_of_what_is_not
     assert "At q₂ = 90°: not stable. At q₂ = -90°: stable, but for q₁, along which" in shown
 
 
+def test_what_is_left_out_of_the_matrix_may_stand_in_the_rest() -> None:
+    """At a = 0 the rest is m g l: positive for l > 0, of which nothing is told, as l may change."""
+    hoist = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {l: prismatic, a: revolute}
+  bodies: [{mass: m, at: [l*sin(a), -l*cos(a), 0]}]
+passive: [a]
+inputs: given
+find: [equilibria]
+"""
+    shown = " ".join(report(dynsolve.solve(hoist), Format.TEXT).decode().split())
+    assert "column of l, which are 0 there, for every l is positive definite, the equilibrium" in shown
+    assert "At a = 0: not stable where l < 0. At a = 180°" in shown
+
+
 def test_an_answer_for_parameters_that_are_special_is_judged_by_the_forces() -> None:
     values = "values: {m1: 2, l1: 1, m2: 1, l2: 2}\n"
     for written, verdict in (("cos(q2) = 0", "correct"), ("cos(q1) = 0 and cos(q2) = 0", "wrong")):
