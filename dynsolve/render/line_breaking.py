@@ -48,6 +48,8 @@ _FINE = 11.0
 _FRACTION = 32.0
 """Denominators that are wider than this, in em, stand behind a slash, where they may be broken."""
 
+_ABOVE = 0.75
+"""Numerators up to this share of that width stand above their denominators as a whole."""
 
 HEIGHTS = (FLAT, 1.35, 1.8)
 """In em: around what has no parentheses, around what has some, and around some with others in them."""
@@ -177,7 +179,7 @@ class FormulaSplitter:
                 builder.add(self.notation.text(node), self.ruler.width(node))
             case Product(factors) if factors:
                 self._product(builder, factors, level)
-            case Quotient(numerator) if self._is_long_fraction(node) or not isinstance(numerator, Number):
+            case Quotient(numerator) if self._is_long_fraction(node) or self._is_long_above(numerator):
                 self._quotient(builder, node, level)
             case Power(base, exponent) if isinstance(base, Sum | Parenthesized | Negative | Product):
                 inner = base.argument if isinstance(base, Parenthesized) else base
@@ -271,6 +273,9 @@ class FormulaSplitter:
 
     def _is_long_fraction(self, node: Node) -> bool:
         return isinstance(node, Quotient) and self.ruler.width(node.denominator) > self.fraction
+
+    def _is_long_above(self, numerator: Node) -> bool:
+        return self._holds(numerator) or self.ruler.width(numerator) > _ABOVE * self.fraction
 
     def _holds(self, node: Node) -> bool:
         """Whether a matrix stands in a part; of most formulas none does in the whole."""

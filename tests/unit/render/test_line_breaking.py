@@ -79,6 +79,15 @@ def test_a_denominator_that_fits_no_line_stands_behind_a_slash() -> None:
     assert r"\frac" in whole
 
 
+def test_a_numerator_that_a_line_has_room_for_stands_above_as_a_whole() -> None:
+    """And not 1/(9c) alone, with what else is above behind it."""
+    node = read("b*(m2*(3*l1*l2 + l2^2) + 9*I2)/(9*c)").tree
+    setting = [FormulaSplitter(latex_notation(LatexPrinter()), Ruler(), 6, most) for most in (8, 32)]
+    broken, whole = ["".join(piece.text for piece in one.pieces(node)) for one in setting]
+    assert r"\frac{1}" in broken
+    assert whole == LatexPrinter().text(node)
+
+
 def test_a_short_formula_stands_on_one_line() -> None:
     node = equation(Symbol("P1"), read("m1*g*l1").tree)
     assert [line.right for line in setter(30).set(Formula(node))] == ["P_{1} = m_{1} g l_{1}"]
