@@ -76,7 +76,16 @@ _CHOSEN = {
         "with which {d} has no constant part."
     ),
 }
-"""What is chosen for two axes that lie so."""
+"""What is chosen for the axes of two joints that lie so."""
+
+_CHOSEN_FOR_HAND = _CHOSEN | {
+    Relation.PARALLEL: (
+        ": every line across is a common normal. The one through the hand is taken, and {x} points from the "
+        "first to the second."
+    ),
+    Relation.COINCIDENT: ": {o} is the hand, and {x}, which may point anywhere across, is {x_before}.",
+}
+"""What is chosen for the axis of the last joint and the z of the hand."""
 
 _HAND_BESIDE = (
     "The hand lies beside the axis of joint {n}: {x} points from the axis across to it, and {z} stays "
@@ -176,16 +185,21 @@ def _why_frame(context: Context, normals: Normals, i: int) -> Prose:
     before = "the x of the hand" if has_own_x else letters.bold("x", Number(i - 1))
     own, following = f"the axis of joint {i}", f"the axis of joint {i + 1}" if i < n else "the z of the hand"
     is_nearer = _is_nearer(normals, i)
-    is_told = not has_own_x and any(
-        each.relation is normal.relation
-        and (normal.relation is not Relation.INTERSECTING or _is_nearer(normals, j) is is_nearer)
-        for j, each in enumerate(normals.all[1:i], 1)
+    chosen = _CHOSEN if i < n else _CHOSEN_FOR_HAND
+    is_told = (
+        not has_own_x
+        and chosen[normal.relation] == _CHOSEN[normal.relation]
+        and any(
+            each.relation is normal.relation
+            and (normal.relation is not Relation.INTERSECTING or _is_nearer(normals, j) is is_nearer)
+            for j, each in enumerate(normals.all[1:i], 1)
+        )
     )
     _, d, a, alpha = letters.columns(context.robot, Number(i))
     nearer, positive = say("nearer to {x}", x=before), say("with a positive {alpha}", alpha=alpha)
     return say(
         f"The axis of joint {i} and {following} {_LIE[normal.relation]}"
-        + (", too." if is_told else _CHOSEN[normal.relation]),
+        + (", too." if is_told else chosen[normal.relation]),
         x=x,
         o=o,
         x_before=before,

@@ -6,6 +6,7 @@ import pytest
 
 import dynsolve
 from dynsolve.explain.step import Step
+from dynsolve.notation.tree import Symbol
 from dynsolve.quantities.stages import Stage
 from tests.unit.problem.test_drawing import FOUR_JOINTS, OFFSET_ARM, PLANAR, RRRP
 
@@ -36,6 +37,20 @@ REASONS = [
 @pytest.mark.parametrize(("text", "frame", "reason"), REASONS)
 def test_each_frame_says_how_the_axes_lie(text: str, frame: str, reason: str) -> None:
     assert reason in words(steps(text)[frame])
+
+
+def test_the_last_axis_and_the_z_of_the_hand_meet_at_the_hand() -> None:
+    """Not where d is 0, as for two joints: h is the d of the one, and of the other."""
+    turn = "{{turn: {}, about: [0, 0, 1], through: {}}}".format
+    turns = f"axes: [{turn('A', '[0, 0, 0]')}, {turn('B', '[l, 0, 0]')}]\n"
+    for place, told in (
+        ("[l, 0, h]", "lie on one line: _ is the hand, and _, which may point anywhere across, is _."),
+        ("[l + a, 0, h]", "are parallel: every line across is a common normal. The one through the hand is"),
+    ):
+        found = steps(f"{turns}tip: {{at: {place}, z: [0, 0, 1]}}\n")
+        assert told in words(found["frame2"]) and "The one with _ = 0 is taken" in words(found["frame1"])
+        table = found["DH"].table
+        assert table is not None and table.rows[1][2] == Symbol("h")
 
 
 def test_a_slide_without_a_place_is_told() -> None:
