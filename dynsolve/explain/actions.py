@@ -21,11 +21,22 @@ from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, WORKED, Detail, Part, Step
 from dynsolve.explain.working.identities import product_named
-from dynsolve.explain.writing import counted_sum, is_small, listed, measured, name_of, side_by_side, sum_of
+from dynsolve.explain.writing import (
+    agreeing,
+    and_joined,
+    counted_sum,
+    is_small,
+    listed,
+    measured,
+    name_of,
+    side_by_side,
+    sum_of,
+)
 from dynsolve.notation import tree
 from dynsolve.notation.build import number_in_front, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
+    ZERO,
     Negative,
     Node,
     Number,
@@ -242,10 +253,31 @@ def acting_steps(context: Context) -> tuple[list[Step], list[Step]]:
 
 
 def potential_steps(context: Context) -> Iterator[Step]:
-    """P_i of every body; what gravity is, and which way is up, is told where it is used first."""
+    """P_i of every body; what gravity is, and which way is up, is told where it is used first.
+
+    Those that stay at the height of the origin are told together, unless there are no others.
+    """
     heavy = [body for body in context.robot.bodies if not body.mass.is_zero]
+    along = _along(context)
+    level = [body for body in heavy if along and context.values[f"rc{body.name}"][along[0], 0].is_zero]
+    level = level[level == heavy :]
+    first = next((body for body in heavy if body not in level), None)
     for body in context.robot.bodies:
-        yield _potential(context, body, tells=heavy[:1] == [body])
+        if body not in level:
+            yield _potential(context, body, tells=body is first)
+    if level:
+        yield Step(
+            id=f"P{level[0].name}",
+            title=f"Potential energy of {and_joined([name_of(body) for body in level])}",
+            why=say(
+                agreeing("{centers} stays|stay at the height of the origin.", len(level)),
+                centers=listed([letters.rc(body) for body in level]),
+            ),
+            source=spong("7.2.3"),
+            result=(equation(*(letters.of_body("P", body) for body in level), ZERO),),
+            also=tuple(f"P{body.name}" for body in level[1:]),
+            uses=tuple(f"rc{body.name}" for body in level),
+        )
 
 
 def _potential(context: Context, body: Body, tells: bool) -> Step:

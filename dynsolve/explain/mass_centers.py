@@ -253,10 +253,7 @@ def other_end(robot: Robot, body: Body | Place) -> tuple[int, algebra.Matrix] | 
 
 
 class Turning(Struct, frozen=True):
-    """How R I Rᵀ comes about: what is said of it, its lines, and the identities that lead to the result.
-
-    `same` is the tensor that it is equal to, where no rotation changes that.
-    """
+    """How R I Rᵀ comes about: its lines, and the identities there; the tensor that it is the `same` as."""
 
     lines: tuple[Node, ...]
     why: Prose = ()

@@ -555,14 +555,10 @@ def told_together(of: Sequence[tuple[str, Meaning]]) -> Iterator[tuple[list[str]
 def _key(name: str, meaning: Meaning) -> tuple[str, object]:
     """What names have in common that are told together."""
     axes = () if not meaning.axes or _names_axis(name, meaning.axes) else meaning.axes
-    if meaning.number and _has_number(name, meaning.number):
+    numbers = {part for group in split(name)[1] for part in (group, group.strip(ascii_letters))}
+    if meaning.number and meaning.number in numbers:  # m_1 and l_c1 have 1, m_p has p
         return f"{meaning.share}{meaning.words} {axes}", True
     return f"{meaning.text()} {axes}", (meaning.link, meaning.body)
-
-
-def _has_number(name: str, number: str) -> bool:
-    """Whether a name has a number as its index: m_1 and l_c1 have 1, m_p has p."""
-    return any(number in (group, group.strip(ascii_letters)) for group in split(name)[1])
 
 
 def _names_axis(name: str, axes: Iterable[str]) -> bool:

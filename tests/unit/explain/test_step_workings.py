@@ -367,3 +367,22 @@ def test_what_the_moments_share_stands_before_the_tensor() -> None:
     style = solved(box).style
     assert to_unicode(put_in, style).startswith("K_ω3 = ½ (1/12) m₃ l₃² [[c₂ θ̇₁, θ̇₂, s₂ θ̇₁]] [[1, 0, 0]")
     assert to_unicode(multiplied, style) == "K_ω3 = ½ (1/12) m₃ l₃² ((c₂ θ̇₁)² + θ̇₂²)"
+
+
+GANTRY = """
+model:
+  coordinates: {x: prismatic, y: prismatic, u: revolute}
+  bodies:
+    - {mass: M1, at: [x, 0, 0]}
+    - {mass: M2, at: [x, y, 0]}
+    - {mass: m, at: [x + l*sin(u), y, -l*cos(u)]}
+"""
+
+
+def test_what_is_0_of_several_bodies_is_told_once() -> None:
+    """Bodies that stay at the height of the origin have one line."""
+    text = report(solved(GANTRY + "find: [D, C, g]\n"), Format.TEXT).decode()
+    assert "P₁ = P₂ = 0" in text and "η₁" not in text and "η₃ = -l cos(u)" in text
+    level = GANTRY.replace("-l*cos(u)", "0")
+    assert "P₁ = M₁ g η₁" in report(solved(level), Format.TEXT).decode().replace("-M₁ 𝐠₀ᵀ 𝐫_c1 = ", "")
+    assert step(level, "P2").also == ("P3",), "the first tells what gravity is"
