@@ -66,7 +66,7 @@ def problem_names(robot: Robot, *, frames: bool = True) -> Iterator[Line]:
             by_place = frames or isinstance(role, Acting)
             of_place = [(name, told) for name, told in alike if by_place and told.words]
             for names, words in told_together(of_place):
-                yield _named(names, agreeing(words, len(names)), unit)
+                yield _named(names, words, unit)
             by_share: dict[str, list[str]] = {}
             is_in_figure = role is Role.LENGTH and not frames
             for name, told in alike:

@@ -247,7 +247,7 @@ def _as_one(role: AnyRole, places: Sequence[Meaning]) -> Meaning:
             links = [place.text().partition(",")[0].split()[-1] for place in places]
             return Meaning(f"length of links {and_joined(links)}", share=first.share)
         rows = sorted({place.link for place in places})
-        return Meaning(f"length in rows {and_joined([str(row) for row in rows])} of the table")
+        return Meaning(f"length|lengths in rows {and_joined([str(row) for row in rows])} of the table")
     if role is Role.SHAPE and len({place.body for place in places}) == 1:
         return Meaning(and_joined([place.text() for place in places]))
     if alike and not first.link and all(place.axes == first.axes for place in others):
@@ -338,7 +338,7 @@ def _asked(robot: Robot) -> Iterator[tuple[AnyRole, str, Meaning]]:
 
 
 def _in_row(joint: Joint) -> Meaning:
-    return Meaning("length in row {link} of the table", joint.index)
+    return Meaning("length|lengths in row {link} of the table", joint.index)
 
 
 def _along_x(robot: Robot, joint: Joint, name: str) -> Meaning:
@@ -549,7 +549,8 @@ def told_together(of: Sequence[tuple[str, Meaning]]) -> Iterator[tuple[list[str]
         is_counted = counted is True and len(of_number) > 1 and len(axes) == 1
         for own in [dict(alike)] if len(axes) == 1 else of_number.values():
             over = sorted({axis for meaning in own.values() for axis in meaning.axes})
-            yield list(own), replace(next(iter(own.values())), axes=tuple(over)).text(is_counted)
+            text = replace(next(iter(own.values())), axes=tuple(over)).text(is_counted)
+            yield list(own), agreeing(text, 1 if is_counted else len(own))
 
 
 def _key(name: str, meaning: Meaning) -> tuple[str, object]:

@@ -32,7 +32,7 @@ LENGTHS = [
     ("[{theta: q1*, a: l/2}, {theta: q2*}]", "l", "twice the length of link 1, from 𝐨₀ to 𝐨₁"),
     ("[{theta: q1*, d: -2*h}, {theta: q2*}]", "h", "half the distance from 𝐨₀ to 𝐨₁, against 𝐳₀"),
     ("[{theta: q1*}, {d: q2* + 3*e}]", "e", "1/3 of the constant part of d in row 2 of the table"),
-    ("[{theta: q1*, a: l + b}, {theta: q2*}]", "b", "length in row 1 of the table"),
+    ("[{theta: q1*, a: l + b}, {theta: q2*}]", "b", "lengths in row 1 of the table"),
 ]
 
 
