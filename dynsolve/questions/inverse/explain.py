@@ -12,7 +12,8 @@ from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.configurations import Conditions
-from dynsolve.derivation.singular.sets import TooLong, common_zeros, existence
+from dynsolve.derivation.elimination import ParameterSigns
+from dynsolve.derivation.singular.sets import Special, TooLong, common_zeros, existence
 from dynsolve.derivation.singular.zeros import never_hold
 from dynsolve.document import Prose, Table
 from dynsolve.document.books import craig, spong
@@ -390,10 +391,11 @@ def _may_be_reached(forms: InverseForms, zeros: Sequence[Expr]) -> bool:
             solving.values, map(Transfer(solving.task.ring, ring), solving.task.entries), strict=True
         )
         images = {ring.symbol_indices[name, 0]: value.poly for name, value in values}
-        found = common_zeros([ring.put(one, images) for one in zeros])
+        special = Special(ParameterSigns())
+        found = common_zeros([ring.put(one, images) for one in zeros], special)
     except (TooLong, AlgebraError):  # the ring has not every angle
         return True
-    return any(existence(one) is not None for one in found)
+    return not special.is_empty or any(existence(one) is not None for one in found)
 
 
 def _moves_nothing(forms: InverseForms, step: Solved, divisor: Expr) -> bool:
