@@ -95,13 +95,18 @@ def row_lengths(robot: Robot, pose: Pose) -> list[Length]:
         _, d, a, _ = joint.written
         if distance(leg.foot, leg.head) > NEAR:
             slides = joint.type is JointType.PRISMATIC
-            is_back = dot(subtract(leg.head, leg.foot), leg.axis) < 0
-            slid = opposite(d) if is_back else d
-            found.append(Length(leg.foot, leg.head, slid if slides else unsigned(d), varies=slides))
-        start, end = (leg.start, leg.foot) if distance(leg.start, leg.foot) > NEAR else (leg.head, leg.end)
-        if distance(start, end) > NEAR:
-            found.append(Length(start, end, unsigned(a)))
+            found.append(_along(leg.axis, leg.foot, leg.head, d, varies=slides))
+        if distance(leg.start, leg.foot) > NEAR:
+            found.append(_along(leg.before, leg.start, leg.foot, a))
+        elif distance(leg.head, leg.end) > NEAR:
+            found.append(_along(leg.after, leg.head, leg.end, a))
     return list(dict.fromkeys(found))
+
+
+def _along(axis: Vector, start: Vector, end: Vector, node: Node, *, varies: bool = False) -> Length:
+    """A length that is positive as it is drawn: h - t of t - h where that leads back."""
+    is_back = dot(subtract(end, start), axis) < 0
+    return Length(start, end, opposite(node) if is_back else node, varies=varies)
 
 
 def dimensions(found: Sequence[Length], pose: Pose, notes: Notes) -> None:

@@ -410,3 +410,14 @@ def test_what_is_slid_back_is_measured_as_minus_its_coordinate() -> None:
     )
     assert "-p⋆" in names(drawn_text(f"{arm}{held}find: [reduced]"))
     assert "p⋆" in names(drawn_text(f"{arm}find: [J]"))
+
+
+def test_a_length_is_positive_as_it_is_drawn() -> None:
+    """The hand lies below the plane of the second axis: d₂ = t - h leads back by h - t."""
+    arm = (
+        "axes:\n  - {turn: B, about: [0, 0, 1], through: [0, 0, 0]}\n"
+        "  - {turn: W, about: [0, 0, -1], through: [p, 0, 0]}\n"
+        "tip: {at: [p, 0, h - t], z: [0, 0, -1], x: [1, 0, 0]}\nzero: drawn\n"
+        "values: {p: 2, h: 1, t: 0.5}\nfind: [DH]\n"
+    )
+    assert "h - t" in names(drawn_text(arm), "length")
