@@ -157,7 +157,9 @@ class InverseFormulas:
             case OneLine(_, a, b, x) if b.is_zero:
                 return _both(ZERO, Function("acos", self.ratio(x, a)))
             case OneLine(_, a, b, x) if a.is_zero:
-                first = Function("asin", self.ratio(x, b))
+                signed = ((sign, self.ratio(x * sign, b)) for sign in (1, -1))
+                sign, ratio = min(signed, key=lambda both: cost(both[1]))  # -arcsin(u/c), not arcsin(-u/c)
+                first = times(sign, [(Function("asin", ratio), 1)])
                 return first, total([Symbol("pi"), negated(first)])
             case OneLine(_, a, b, x):
                 return self._of_line(step, self.form(x))

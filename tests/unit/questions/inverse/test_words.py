@@ -86,6 +86,11 @@ def test_where_an_angle_is_free_nothing_is_divided_by_0_and_positive_lengths_are
     assert "is free" not in told("dh: [{theta: q1*, alpha: 45deg}, {theta: q2*, alpha: 90deg}, {d: q3*}]")
 
 
+def test_the_sign_of_a_sine_stands_before_its_angle() -> None:
+    text = told("dh: [{theta: q1*, a: l, alpha: 90deg}]\ntask: [-tip.y]\nreach: [u]")
+    assert "q₁ = -arcsin(u/l) q₁ = π + arcsin(u/l)" in text
+
+
 def test_no_square_of_a_number_stands_under_a_root() -> None:
     text = told("dh: [{theta: q1*, a: b, alpha: 30deg}, {d: q2*, alpha: 60deg}, {d: q3*}]\nreach: [u, v, w]")
     assert "q₃ = -q₂/2 ± √(u² + v² - b²) Note: This equation has solutions where u² + v² - b² ≥ 0" in text
