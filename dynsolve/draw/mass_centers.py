@@ -124,7 +124,7 @@ def _clearest(
 
 def _is_from_near(body: Body) -> bool:
     """Whether the file measures the centre from the near end of its link."""
-    return re.match(r"\W*near\b", body.center_written) is not None
+    return re.match(r"\W*(near|along)\b", body.center_written) is not None
 
 
 def _number(robot: Robot, numbers: RobotNumbers, body: Body) -> float | None:

@@ -347,7 +347,8 @@ def _along_x(robot: Robot, joint: Joint, name: str) -> Meaning:
     factor = _factor(joint.a, name)
     if not factor:
         return _in_row(joint)
-    if joint.d.is_zero and (joint.parent or not modified):
+    children = sum(other.parent == joint.parent for other in robot.joints)
+    if joint.d.is_zero and ((joint.parent and children == 1) or not modified):
         words = f"length of link {{{'before' if modified else 'link'}}}, from o{{before}} to o{{link}}"
     else:
         way = "along" if factor > 0 else "against"

@@ -196,6 +196,11 @@ def test_a_number_along_one_axis_is_a_distance(center: str, said: str) -> None:
     assert [name for name in names(drawn_text(text), "length") if name != "a₁"] == ([said] if said else [])
 
 
+def test_a_part_of_the_way_is_measured_from_where_it_begins() -> None:
+    arm = "dh: [{theta: q1*, a: 0.5}]\nmasses: [{mass: 5, link: 1, center: {along: 2/5}}]\n"
+    assert "0.2" in names(drawn_text(f"gravity: [0, -g, 0]\n{arm}"), "length")
+
+
 def test_a_letter_of_a_mass_centre_beside_another_has_its_length() -> None:
     arm = "dh: [{theta: q* + 90deg, a: w, alpha: 90deg}, {d: rho*}]\n"
     masses = "masses: [{mass: m1, link: 1, center: [-w/2, 0, 0]}, {mass: m2, link: 2, center: [0, u, -v]}]\n"

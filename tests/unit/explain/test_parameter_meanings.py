@@ -168,6 +168,15 @@ def test_in_the_modified_table_a_length_is_that_of_the_link_before() -> None:
     assert found["c"] == "distance from 𝐨₂ to the mass centre of body 2"
 
 
+def test_in_the_modified_table_a_link_that_branches_has_no_one_length() -> None:
+    rows = "{theta: q1*}, {a: l, theta: q2*}, {a: b, theta: q3*, from: 1}"
+    body = "masses: [{mass: m, link: 2, center: [c, 0, 0]}]"
+    found = told(f"convention: modified\ndh: [{rows}]\n{body}")
+    assert (found["l"], found["b"]) == tuple(f"distance from 𝐳₁ to 𝐳{k}, along 𝐱₁" for k in "₂₃")
+    found = told(f"convention: modified\ndh: [{rows.replace('a: b', 'a: l')}]\n{body}")
+    assert found["l"] == "length in rows 2 and 3 of the table"
+
+
 ACTING = """
 gravity: none
 dh: [{theta: q1*}, {d: q2*}]
