@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from random import Random
+from math import exp
+from operator import itemgetter
 from typing import TypeVar
 
 from msgspec import Struct
@@ -12,7 +13,7 @@ from msgspec import Struct
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import evaluate
-from dynsolve.algebra.sampling import SEED, samples
+from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.newton_euler import (
     ZERO,
     Arm,
@@ -31,11 +32,14 @@ from dynsolve.errors import NoStatesError
 from dynsolve.robot import model
 from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
 
-_MISSES = 600
+_MISSES = 200
 """So many samples after each other may have no value."""
 
-_NEAR, _STEP = 100, 25
-"""After so many misses parameters lie by powers of 2 farther apart, by one more after each further step."""
+_REPAIRED, _STEPS = 100, 40
+"""After so many misses parameters are moved to where what is assumed holds, in so many steps."""
+
+_BEYOND, _FARTHEST, _DIFFERENCE = 1.5, 2.0, 1e-6
+"""Of each step in the logarithms: past where an inequality begins to hold, at most, and for slopes."""
 
 Made = TypeVar("Made")
 
@@ -48,21 +52,13 @@ def arms(robot: Robot) -> Iterator[tuple[dict[str, float], Arm]]:
 def states_with(
     ring: Ring, at: Callable[[Mapping[str, float]], Made], signed: Iterable[str] = (), first: int = 0
 ) -> Iterator[tuple[dict[str, float], Made]]:
-    """The samples where `at` has a value, without end, and what it makes of them.
-
-    Parameters are near 1 as long as that gives values; k > 100 m asks for others.
-    """
-    missed = powers = 0
-    random = Random(SEED)  # noqa: S311 - the same samples every time are wanted
+    """The samples where `at` has a value, without end, and what it makes of them."""
+    missed = 0
     for values in samples(ring, signed, first):
-        if powers:
-            moved = (name for name in ring.parameters if random.random() < 0.5)
-            values |= {name: values[name] * 2 ** random.uniform(-powers, powers) for name in moved}
         try:
             made = at(values)
         except (ValueError, ZeroDivisionError):
             missed += 1
-            powers = max(powers, (missed - _NEAR) // _STEP)
             if missed == _MISSES:
                 break
             continue
@@ -72,16 +68,33 @@ def states_with(
 
 
 def assumed_states(robot: Robot) -> Iterator[dict[str, float]]:
-    """The samples that satisfy what is assumed of the parameters."""
+    """Samples that satisfy what is assumed of the parameters: k > 100 m is met by none that are near 1."""
+    bounds, missed = [bound.value for bound in robot.questions.model.assumed], 0
+    for values in samples(robot.ring):
+        found = values if missed < _REPAIRED else _moved(values, robot.ring.parameters, bounds)
+        if all(evaluate(bound, found) > 0 for bound in bounds):
+            yield found
+            continue
+        missed += 1
+        if missed == _MISSES:
+            raise NoStatesError("no positive values of the parameters are known that satisfy `assume`")
 
-    def check(values: Mapping[str, float]) -> None:
-        if any(evaluate(bound.value, values) <= 0 for bound in robot.questions.model.assumed):
-            raise ValueError  # the next sample is taken
 
-    try:
-        yield from (values for values, _ in states_with(robot.ring, check))
-    except NoStatesError:
-        raise NoStatesError("no positive values of the parameters are known that satisfy `assume`") from None
+def _moved(values: dict[str, float], names: Sequence[str], bounds: Sequence[Expr]) -> dict[str, float]:
+    """Parameters moved to where all bounds are positive, by steps of Newton in their logarithms."""
+    for _ in range(_STEPS):
+        lowest, value = min(((bound, evaluate(bound, values)) for bound in bounds), key=itemgetter(1))
+        if value > 0:
+            break
+        farther = (evaluate(lowest, {**values, name: values[name] * (1 + _DIFFERENCE)}) for name in names)
+        slopes = [(one - value) / _DIFFERENCE for one in farther]
+        steepness = sum(slope * slope for slope in slopes)
+        if not steepness:
+            break
+        for name, slope in zip(names, slopes, strict=True):
+            step = -_BEYOND * value * slope / steepness
+            values = {**values, name: values[name] * exp(max(-_FARTHEST, min(_FARTHEST, step)))}
+    return values
 
 
 def arm_at(robot: Robot, values: Mapping[str, float]) -> Arm:

@@ -70,7 +70,10 @@ def test_the_summary_says_that_forces_from_outside_are_left_out() -> None:
     assert "The equilibria without the forces from outside:" in read(arm + pushed).partition("Summary")[2]
 
 
-@pytest.mark.parametrize("assumed", ["l > 3", "m > 1000", "m > 5, g > 20*l", "m*g > 10000*l"])
+@pytest.mark.parametrize(
+    "assumed",
+    ["l > 3", "m > 1000", "m > 5, g > 20*l", "m*g > 10000*l", "m > 10*g, m < 11*g, l > 60, l < 60.5"],
+)
 def test_what_is_assumed_may_be_far_from_one(assumed: str) -> None:
     """It is met by none of the values that parameters have otherwise."""
     arm = "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
