@@ -18,7 +18,7 @@ from dynsolve.algebra.spaces import dependent_where
 from dynsolve.derivation.elimination import ParameterSigns
 from dynsolve.derivation.existence import coordinates_in
 from dynsolve.derivation.search_ring import search_ring
-from dynsolve.derivation.singular.sets import Special, TooLong, common_zeros
+from dynsolve.derivation.singular.sets import Special, TooLong, common_zeros, existence
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.writing import is_small, listed
@@ -74,11 +74,12 @@ def of_rates(forms: SetForms) -> Holding:
         is_full = forms.comparison(may_vanish(shared), "≠")
         return Holding(rank, (is_full,) if is_small(is_full) else ())
     is_fixed = any(map(is_never_zero, chain(_sizes(J, rank), _sizes(J.T, rank))))
-    return Holding() if is_fixed else Holding(rank, _one_of(forms, found))
+    one_of = () if is_fixed else _one_of(forms, found)
+    return Holding() if is_fixed or one_of is None else Holding(rank, one_of)
 
 
-def _one_of(forms: SetForms, values: Sequence[Expr]) -> tuple[Relation, ...]:
-    """What is not 0, one or the other, where not all values are, if that is told by so few."""
+def _one_of(forms: SetForms, values: Sequence[Expr]) -> tuple[Relation, ...] | None:
+    """What is not 0, one or the other, where not all values are, if few tell it; None of what is always so."""
     if sum(map(len, values)) > MOST_TERMS:
         return ()
     there, special = (
@@ -86,7 +87,9 @@ def _one_of(forms: SetForms, values: Sequence[Expr]) -> tuple[Relation, ...]:
         Special(ParameterSigns()),
     )
     with suppress(TooLong):
-        cases = common_zeros([*map(there, values)], special)
+        cases = [one for one in common_zeros([*map(there, values)], special) if existence(one) is not None]
+        if not cases and special.is_empty:
+            return None
         if len(cases) == 1 and special.is_empty:
             names = there.target.names
             case = sorted(cases[0], key=lambda one: [*map(names.index, coordinates_in(one.expr))])

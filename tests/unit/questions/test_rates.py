@@ -314,3 +314,13 @@ find: [qd]
 """
     found = dynsolve.solve(elbow).to_json()["results"]["qd"]
     assert found[:2] == ["sqrt(2)*v*cos(q1)/(l2 - l3)", "-sqrt(2)*v*sin(q1)/(2*l2)"]
+
+
+@pytest.mark.parametrize(("second", "is_said"), [("0", False), ("90deg", False), ("q", True)])
+def test_a_rank_that_is_the_same_in_every_pose_is_no_condition(second: str, is_said: bool) -> None:
+    """The planar 3R with its second joint held: stretched it always lacks one direction, bent none."""
+    rows = "{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}"
+    state = "" if second == "q" else f"state: {{q2: {second}}}\n"
+    arm = f"gravity: none\ndh: [{rows}]\ntask: [tip.x, tip.y, q1 + q2 + q3]\n{state}"
+    told = dynsolve.solve(f"{arm}find: [nullspace]\n").to_markdown()
+    assert ("All this holds where" in told) == is_said
