@@ -79,7 +79,7 @@ def of_rates(forms: SetForms) -> Holding:
 
 
 def _one_of(forms: SetForms, values: Sequence[Expr]) -> tuple[Relation, ...] | None:
-    """What is not 0, one or the other, where not all values are, if few tell it; None of what is always so."""
+    """What is not 0, one or the other, where not all values are, if few tell it; None if it is always so."""
     if sum(map(len, values)) > MOST_TERMS:
         return ()
     there, special = (
