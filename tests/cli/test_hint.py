@@ -67,7 +67,7 @@ def test_every_stage_says_what_there_is_what_to_do_and_what_to_look_out_for(stag
 
 def test_formulas_and_inputs_of_this_robot() -> None:
     energy = hint("in3140-rp", "energy")
-    assert "K_ω1 = ½ 𝛚₁ᵀ 𝓘₁ 𝛚₁" in energy and "𝐉_v2 = 𝐉_v " in energy  # the mass is at the tip
+    assert "K_ω1 = ½ (𝐈₁)_zz 𝛚₁ᵀ 𝛚₁" in energy and "𝐉_v2 = 𝐉_v " in energy  # the mass is at the tip
     assert "𝐫_c2 = ⎢L₂ s₁⎥" in energy  # what the stage before has given
     assert "θ̇₁²" not in energy
     torque = hint("in3140-rp", "torque")

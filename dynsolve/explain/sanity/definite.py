@@ -103,7 +103,10 @@ def _singular(context: Context, seen: list[Place] | None) -> Step | None:
         reason = "In every pose row {zero} of $𝐃$ is 0, so {det}"
     elif any(equal):
         reason = "In every pose rows {i} and {j} of $𝐃$ are equal, so {det}"
-    is_else = context.robot.given is None and bool(seen) and all(bounds for _, bounds in seen or ())
+    is_sure = context.robot.given is None or (
+        len(rows) == 2 and _is_positive(context, context.show(rows[0][0]))
+    )
+    is_else = is_sure and bool(seen) and all(bounds for _, bounds in seen or ())
     told = say(
         f"{reason}: some rates that are not 0 have no kinetic energy, and the forces do not determine all "
         f"accelerations.{' For other parameters $𝐃$ is positive definite.' * is_else}",

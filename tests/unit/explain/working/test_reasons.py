@@ -182,7 +182,7 @@ def test_the_square_of_a_sum_of_decimals_names_its_identities() -> None:
 def test_products_beside_two_rates_are_multiplied_and_what_cancels_is_told() -> None:
     assert "+ b² q̇₁ q̇₂ + b² q̇₂²" in lines(LEANING_AXES, "Kv1")[-2]
     *_, leaning, cancelling = lines(ON_A_CONE, "Kv1")
-    assert "2(3r sin(W) cos(W)/4 - 3r sin(W) cos(W)/4)" in leaning
+    assert "(3r sin(W) cos(W)/2 - 3r sin(W) cos(W)/2)" in leaning
     assert "(the terms with " in cancelling and cancelling.endswith(" cancel):")
 
 
