@@ -1213,6 +1213,7 @@ Let all parameters be positive[, and the tensors those of bodies][, and {&}].
 {} is symmetric, and may depend on the coordinates, but on no rate.
 Read off[ from the forces] and assembled directly: the same {&}.
 The tensor along the body's own axes put in:
+By {&}[, and the numbers multiplied]; the second product multiplied out, with the same:
 In the <standard|modified> convention ...
 Other matrices {} give the same {}, which is all that the equations of motion fix.
 With the square of a rate it is centrifugal: it remains where that coordinate alone moves.
