@@ -93,7 +93,7 @@ def placed_scene(problem: Problem, star: bool = True) -> Scene:
         _length(piece, pose, notes)
     if pose.gravity is not None:
         tilt(pose.robot, pose.gravity, pose.view, notes)
-        gravity_arrow(pose.gravity, pose.view, seen, notes)
+        gravity_arrow(pose.robot, pose.gravity, pose.view, seen, notes)
     labels = place(notes.wanted, notes.taken, notes.lengths)
     drawn = (*lines, *notes.behind, *solid, *notes.paths, *leads(labels))
     return Scene(

@@ -21,7 +21,7 @@ from msgspec import Struct, field
 from dynsolve.algebra.ring import Expr
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Taken, Wanted, written
-from dynsolve.draw.mass_centers import DrawnBody
+from dynsolve.draw.mass_centers import DrawnBody, symbols_of
 from dynsolve.draw.parts import RADIUS, TUBE, JointBody, Parts
 from dynsolve.draw.paths import Path, typeset
 from dynsolve.draw.skeleton import Leg, Orientation, RobotNumbers, Skeleton, finite
@@ -402,9 +402,10 @@ def _quartered(center: Point, radius: float) -> tuple[Path, ...]:
     return (Path(paths.circle(center, radius), paths.BLACK, 1.2, paths.WHITE), *quarters)
 
 
-def gravity(place: Point, direction: Point | None, notes: Notes) -> None:
-    """The arrow of gravity; a cross in a circle where it points away from the viewer."""
-    node = Symbol("g")
+def gravity(robot: Robot, place: Point, direction: Point | None, notes: Notes) -> None:
+    """The arrow of gravity with its letter; a cross in a circle where it points away from the viewer."""
+    names = symbols_of(robot, robot.gravity.entries)
+    node = Symbol(names[0] if len(names) == 1 else "g")
     if direction is None:
         notes.draw(Path(paths.circle(place, 8.0), paths.BLACK, 1.4), *_cross(place, 5.6, paths.BLACK))
         beside = moved(place, (1.0, 0.0), 8.0)

@@ -189,7 +189,7 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     dimensions([*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values)], pose, notes)
     if world.gravity is not None:
         tilt(robot, world.gravity, pose.view, notes)
-        gravity_arrow(world.gravity, pose.view, [*under, *body], notes)
+        gravity_arrow(robot, world.gravity, pose.view, [*under, *body], notes)
     labels = place(notes.wanted, notes.taken, notes.lengths)
     paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
@@ -298,7 +298,9 @@ def _part(symbol: Symbol, rate: Fraction) -> Node:
     return times if rate.denominator == 1 else Quotient(times, Number(rate.denominator))
 
 
-def gravity_arrow(gravity: Vector, view: View, body: Iterable[Path], notes: poses.Notes) -> None:
+def gravity_arrow(
+    robot: Robot, gravity: Vector, view: View, body: Iterable[Path], notes: poses.Notes
+) -> None:
     """The arrow of gravity, at the side where there is most room."""
     box = bounds([*body, *notes.paths])
     end_on = view.flat and abs(dot(gravity, view.toward)) > 0.9
@@ -315,7 +317,7 @@ def gravity_arrow(gravity: Vector, view: View, body: Iterable[Path], notes: pose
     best = min(places, key=crowded)
     if crowded(best):
         best = (box.right + 40.0, box.top + 30.0)
-    poses.gravity(best, direction, notes)
+    poses.gravity(robot, best, direction, notes)
 
 
 def _unit(a: Point) -> Point:

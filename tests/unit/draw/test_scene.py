@@ -137,7 +137,8 @@ def test_axes_joints_and_masses_are_named(path: Path) -> None:
     assert sum("⋆" in name for name in names(picture, "variable")) == sum(
         joint.type is not None for joint in robot.joints
     )
-    assert names(picture, "gravity") == ([] if robot.gravity.is_zero else ["g"])
+    letter = "g₀" if "g0" in robot.parameters else "g"
+    assert names(picture, "gravity") == ([] if robot.gravity.is_zero else [letter])
 
 
 @pytest.mark.parametrize("text", ODD.values(), ids=ODD.keys())
@@ -194,6 +195,12 @@ def test_a_number_along_one_axis_is_a_distance(center: str, said: str) -> None:
         f"dh: [{{theta: q1*, a: a1}}]\nmasses: [{{mass: m1, link: 1, center: {center}}}]\nvalues: {{a1: 0.5}}"
     )
     assert [name for name in names(drawn_text(text), "length") if name != "a₁"] == ([said] if said else [])
+
+
+@pytest.mark.parametrize(("gravity", "letter"), [("-g0", "g₀"), ("-9.81", "g"), ("-2*G", "G")])
+def test_the_arrow_of_gravity_has_the_letter_of_the_file(gravity: str, letter: str) -> None:
+    arm = f"gravity: [0, {gravity}, 0]\ndh: [{{theta: q1*, a: l}}]\nmasses: [{{mass: m, link: 1}}]\n"
+    assert names(drawn_text(arm), "gravity") == [letter]
 
 
 def test_a_part_of_the_way_is_measured_from_where_it_begins() -> None:
