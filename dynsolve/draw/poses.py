@@ -404,8 +404,10 @@ def _quartered(center: Point, radius: float) -> tuple[Path, ...]:
 
 def gravity(robot: Robot, place: Point, direction: Point | None, notes: Notes) -> None:
     """The arrow of gravity with its letter; a cross in a circle where it points away from the viewer."""
-    names = symbols_of(robot, robot.gravity.entries)
-    node = Symbol(names[0] if len(names) == 1 else "g")
+    ring, entries = robot.ring, robot.gravity.entries
+    squared = sum((entry * entry for entry in entries), start=ring.zero)
+    names = (name for name in symbols_of(robot, entries) if ring.symbol(name) ** 2 == squared)
+    node = Symbol(next(names, "g"))
     if direction is None:
         notes.draw(Path(paths.circle(place, 8.0), paths.BLACK, 1.4), *_cross(place, 5.6, paths.BLACK))
         beside = moved(place, (1.0, 0.0), 8.0)

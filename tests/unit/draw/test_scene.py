@@ -197,9 +197,12 @@ def test_a_number_along_one_axis_is_a_distance(center: str, said: str) -> None:
     assert [name for name in names(drawn_text(text), "length") if name != "a₁"] == ([said] if said else [])
 
 
-@pytest.mark.parametrize(("gravity", "letter"), [("-g0", "g₀"), ("-9.81", "g"), ("-2*G", "G")])
+@pytest.mark.parametrize(
+    ("gravity", "letter"),
+    [("0, -g0", "g₀"), ("0, -9.81", "g"), ("0, -2*G", "g"), ("G*sin(b), -G*cos(b)", "G")],
+)
 def test_the_arrow_of_gravity_has_the_letter_of_the_file(gravity: str, letter: str) -> None:
-    arm = f"gravity: [0, {gravity}, 0]\ndh: [{{theta: q1*, a: l}}]\nmasses: [{{mass: m, link: 1}}]\n"
+    arm = f"gravity: [{gravity}, 0]\ndh: [{{theta: q1*, a: l}}]\nmasses: [{{mass: m, link: 1}}]\n"
     assert names(drawn_text(arm), "gravity") == [letter]
 
 
