@@ -111,10 +111,10 @@ def _tensor(context: Context, body: Body) -> Step:
         about = f"the origin of frame {body.link}" if body.about == "origin" else "the near end of its link"
     moments, working, why, said = _shape(context, body) or _given(context, body, about)
     if body.density is not None:
-        why, said = (
-            (f"The moments of {name_of(body)} were found above; by symmetry there are no others.",),
-            "",
-        )
+        why = (f"The moments of {name_of(body)} were found above; by symmetry there are no others.",)
+        said = ""
+    if letters.tensor(context.robot, body).sup is not None:
+        why = (*why, " The superscript b is for the body's own axes.")
     return Step(
         id=f"I_given{body.name}" if is_moved(body) else f"I_body{body.name}",
         title=f"Inertia tensor of {name_of(body)} in its own frame",
