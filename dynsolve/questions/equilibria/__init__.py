@@ -8,6 +8,7 @@ balance        conditions on the parameters for gravity to move nothing
 linearization  the motion near an equilibrium; equilibria of steady motion
 linear_check   that motion, by differences on numbers
 forms          all of these as formulas
+near           what `explain` says of the motion near equilibria
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Steps of equilibria: where nothing moves, how stable that is, the motion near one of them, linear."""
+"""Steps of equilibria: where nothing moves, and what balances gravity; `near` goes on from there."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import isclose
 
@@ -10,23 +10,20 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.linear_systems import is_diagonal
-from dynsolve.algebra.matrix import Matrix, determinant, vstack
+from dynsolve.algebra.matrix import determinant, vstack
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.existence import coordinates_in, quadratic_of, zeros_at_quarters
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.document import Prose
-from dynsolve.document.books import GOLDSTEIN, SLOTINE_LI, spong
+from dynsolve.document.books import SLOTINE_LI, spong
 from dynsolve.document.sentences import Value, paragraph, say
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import Forms, ProductForms
+from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import in_units
-from dynsolve.explain.sanity.definite import is_definite
-from dynsolve.explain.sanity.determinant import sign_of
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
-from dynsolve.explain.writing import agreeing, and_joined, as_row, is_small, listed, scalar, side_by_side
+from dynsolve.explain.writing import agreeing, and_joined, as_row, is_small, listed, side_by_side
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ONE,
@@ -39,10 +36,21 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.quantities import letters
-from dynsolve.questions.equilibria import linearization
 from dynsolve.questions.equilibria.balance import exclude_each_other, is_impossible
 from dynsolve.questions.equilibria.forms import EquilibriaForms
-from dynsolve.questions.equilibria.linearization import may_be_held, steady_energy, steady_forces
+from dynsolve.questions.equilibria.near import (
+    DG,
+    SOURCE,
+    ZERO,
+    forces_in_balance,
+    forces_of,
+    held_by_friction,
+    input_matrix,
+    is_steady,
+    linear_divisor,
+    stability,
+    state_matrix,
+)
 from dynsolve.questions.equilibria.numeric import all_zeros
 from dynsolve.questions.equilibria.solving import (
     Equilibria,
@@ -51,15 +59,8 @@ from dynsolve.questions.equilibria.solving import (
     multipliers,
     wanted_rows,
 )
-from dynsolve.questions.equilibria.stability import Higher, Point, Stability, by_coordinates, turned
-from dynsolve.questions.forward_dynamics.derive import outside_names
 from dynsolve.questions.set_forms import SetForms, vanishing
-from dynsolve.questions.shared_divisor import SharedDivisor, shared_divisor
 from dynsolve.robot.model import JointType, Robot
-
-_SOURCE = SLOTINE_LI.section("3.3")
-_ZERO = formula("𝟎")
-_DG = formula("∂𝐠/∂𝐪")
 
 
 def given(forms: Forms) -> Iterator[Prose]:
@@ -96,10 +97,10 @@ def steps(context: Context) -> Iterator[Step]:
     if "balance" in wanted:
         yield replace(_balance(context), normal=NOTED)
     if "linear_A" in wanted:
-        shared = _shared_divisor(context)
-        yield replace(_state_matrix(context, shared), normal=NOTED)
+        shared = linear_divisor(context)
+        yield replace(state_matrix(context, shared), normal=NOTED)
         if "linear_B" in wanted:
-            yield _input_matrix(context, shared)
+            yield input_matrix(context, shared)
 
 
 # -- where nothing moves ---------------------------------------------------------------------------
@@ -108,14 +109,10 @@ _AT_REST = (
     "In an equilibrium rates and accelerations are 0{idle}: of the equations of motion {left} is left. "
     "{loads}"
 )
-MOST_ZEROS = 8
+MOSTZEROS = 8
 """More zeros of an equation in numbers are not told."""
 
 _COULOMB = "Coulomb friction is left out: wherever it holds, there is rest, too."
-_CONSTANT = "All this is with motors whose forces stay as they are."
-_DEFINITE = "All this is where $𝐃$ is positive definite."
-_NOT_HELD = "All this is without Coulomb friction{held}."
-_CAN_HOLD = ", which can hold what is not stable"
 _NEVER_HELD = "Where all of them are 0, the rows of $𝐀_c$ are dependent and there is no $𝛌$."
 _NO_MULTIPLIERS = "there is no $𝛌$, and no equilibrium"
 _MAY_BE_DEPENDENT = "the rows of $𝐀_c$ may be dependent; there need then be no $𝛌$, and no equilibrium."
@@ -129,7 +126,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         return
     shown = EquilibriaForms(robot, context.values)
     cases, model = shown.equilibria, robot.questions.model
-    steady = _is_steady(robot)
+    steady = is_steady(robot)
     told = [shown.relations(*both) for both in zip(found.alternatives, cases, strict=True)]
     result: tuple[Node, ...] = tuple(as_row(listed(one)) for one in told if one)
     constrained, working, leaves_free = (
@@ -139,7 +136,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
     combined = _combined(context, shown, found)
     lines = (Line(_combined_by(found, where, bool(constrained)), combined),) if combined else ()
     notes = [*_of_cases(shown, found, where), *_besides(context, shown, found)]
-    left = forces = _forces_of(robot)
+    left = forces = forces_of(robot)
     if constrained:
         left = formula("{forces} = 𝐀_cᵀ 𝛌", forces=forces)
     balance = (
@@ -153,7 +150,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         title="Where nothing else moves" if steady else "Where nothing moves",
         why=say(
             "{which}{held}{constrained}{given}",
-            which=why(context, left) if steady else _at_rest(robot, left),
+            which=_in_steady_motion(context, left) if steady else _at_rest(robot, left),
             held=say(balance, passive=passive) if model.inputs_given else "",
             constrained=constrained,
             given=say(_GIVEN, these=say(", and {these}", these=side_by_side(assumed)) if assumed else "")
@@ -161,7 +158,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
             else "",
         ),
         formula=left if constrained else _balance_of(robot, forces, _shown_forces(context)),
-        task=left if constrained else equation(forces, _ZERO),
+        task=left if constrained else equation(forces, ZERO),
         source=SOURCE if steady else SLOTINE_LI.section("3.1"),
         working=working,
         lines=lines,
@@ -176,27 +173,12 @@ def _equilibria(context: Context) -> Iterator[Step]:
         detail=Detail.BRIEF,
     )
     if (leaves_free and cases) if constrained else any(found.points):
-        yield _stability(context, shown, found)
-
-
-def _is_steady(robot: Robot) -> bool:
-    return bool(robot.questions.model.steady)
-
-
-def _forces_of(robot: Robot) -> Node:
-    """The letters of the forces in balance: g, or what is left in a steady motion."""
-    return FORCES if _is_steady(robot) else letters.G
-
-
-def _forces(context: Context) -> Matrix:
-    """These forces, n×1."""
-    still: Matrix = context.values["g"]
-    return steady_forces(context.robot, context.values["C"], still) if _is_steady(context.robot) else still
+        yield stability(context, shown, found)
 
 
 def _shown_forces(context: Context) -> Node:
     """These forces as they are printed."""
-    return context.show(_forces(context)) if _is_steady(context.robot) else context.form("g")
+    return context.show(forces_in_balance(context)) if is_steady(context.robot) else context.form("g")
 
 
 def _where(shown: EquilibriaForms, found: Equilibria) -> Prose:
@@ -216,7 +198,7 @@ def _combined(context: Context, shown: EquilibriaForms, found: Equilibria) -> tu
     said = {equation(value, Number(0)) for one in shown.equilibria for value in one}
     own: set[Expr] = set()
     if not robot.questions.constraints:
-        own = {sign * force for force in _forces(context).entries for sign in (1, -1)}
+        own = {sign * force for force in forces_in_balance(context).entries for sign in (1, -1)}
     rings = {robot.ring: None} | {one.expr.ring: None for case in found.alternatives for one in case}
     places = [Transfer(robot.ring, ring) for ring in rings]
     both = (
@@ -271,7 +253,7 @@ def _of_cases(shown: EquilibriaForms, found: Equilibria, where: Prose) -> Iterat
         if found.is_convex:
             yield (
                 "In every configuration each entry on the diagonal of ",
-                _DG,
+                DG,
                 " is more than the sizes of the others in its row together: the potential energy is convex, "
                 "and has no other equilibrium.",
             )
@@ -300,7 +282,7 @@ def _only(shown: EquilibriaForms, value: Expr, zero: Expr, bounds: Sequence[Boun
 
 def _in_numbers(shown: EquilibriaForms, value: Expr) -> Iterator[Prose]:
     """2 sin(q) - q is 0 at q = 0, q ≈ 108.6° and q ≈ -108.6° alone."""
-    if (found := all_zeros(value)) is None or len(found[1]) > MOST_ZEROS:
+    if (found := all_zeros(value)) is None or len(found[1]) > MOSTZEROS:
         return
     name, zeros = found
     exact = {float(pose.get(name, 0)) for pose in zeros_at_quarters([value])}
@@ -320,21 +302,8 @@ def _besides(context: Context, shown: EquilibriaForms, found: Equilibria) -> Ite
     if found.may_be_others:
         yield ("For special values of the parameters there may be others.",)
     yield from _without_multipliers(shown, found)
-    if (slid := _held_by_friction(shown.robot)) and (rest := _rest(context, shown, slid)):
+    if (slid := held_by_friction(shown.robot)) and (rest := _rest(context, shown, slid)):
         yield rest
-
-
-def _held_by_friction(robot: Robot) -> dict[int, Expr]:
-    """The Coulomb friction of each coordinate, from 0, that no motor holds."""
-    ring, found = robot.ring, dict[int, Expr]()
-    for act in robot.actions.resisting:
-        for sign in act.functions(robot):
-            (name,) = (name for name in ring.names if Symbol(name, 1) == sign.argument)
-            k, (place,) = ring.names.index(name), ring.function(sign).used
-            slides = {place: ring.one.poly, ring.symbol_indices[name, 1]: ring.zero.poly}
-            if k in wanted_rows(robot):
-                found[k] = found.get(k, ring.zero) + ring.put(act.force(robot)[k, 0], slides)
-    return found
 
 
 def _rest(context: Context, shown: EquilibriaForms, slid: Mapping[int, Expr]) -> Prose:
@@ -342,7 +311,7 @@ def _rest(context: Context, shown: EquilibriaForms, slid: Mapping[int, Expr]) ->
     robot, form = shown.robot, shown.compactor(shown.robot.ring).form
     if robot.questions.constraints:
         return (_COULOMB,)
-    forces = _forces(context)
+    forces = forces_in_balance(context)
     balanced = {k: forces[k, 0] for k in wanted_rows(robot) if not forces[k, 0].is_zero}
     rest = [
         Relation((form(-slid[k]), form(force), form(slid[k])), ("≤", "≤"))
@@ -355,13 +324,6 @@ def _rest(context: Context, shown: EquilibriaForms, slid: Mapping[int, Expr]) ->
     if not is_small(*rest):
         return (_COULOMB,)
     return say("With Coulomb friction the equilibria are where {rest}.", rest=as_row(listed(rest)))
-
-
-def _can_hold(context: Context, curvature: Matrix, slid: Collection[int]) -> bool:
-    """Whether what has no Coulomb friction is stable by itself, in every pose."""
-    free = [k for k in range(context.robot.n) if k not in slid]
-    alone = all(curvature[i, j].is_zero for i in free for j in free if i != j)
-    return alone and all(sign_of(context, curvature[k, k]) > 0 for k in free)
 
 
 def _without_multipliers(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
@@ -386,7 +348,7 @@ def _singular(shown: EquilibriaForms, found: Equilibria) -> Iterator[Prose]:
     if robot.questions.constraints:
         balance = say("there may be a $𝛌$")
     elif len(rows) == robot.n:
-        balance = (equation(letters.G, _ZERO),)
+        balance = (equation(letters.G, ZERO),)
     for case, idle in found.singular:
         zero = listed(shown.relations(case, tuple(map(shown.condition, case))))
         names = listed([Symbol(shown.robot.coordinates[k].name) for k in idle])
@@ -455,11 +417,28 @@ def _at_rest(robot: Robot, left: Node) -> Prose:
     )
 
 
+def _in_steady_motion(context: Context, left: Node) -> Prose:
+    """Which rates are held, by what, and what is `left` of the equations of the others."""
+    robot = context.robot
+    rates = robot.questions.model.steady
+    passive = {robot.coordinates[k].name for k in robot.actions.passive}
+    free = listed([Symbol(name) for name, _ in rates if name in passive], "or")
+    driven = listed([Symbol(name) for name, _ in rates if name not in passive])
+    return say(
+        "In this motion {held} all the time; the other rates and all accelerations are 0. {driven}{free}Of "
+        "the equations of the others {left} is left. ",
+        held=side_by_side([equation(Symbol(name, 1), value) for name, value in rates]),
+        driven=say("Motors keep the rate of {names}, whatever that takes. ", names=driven) if driven else "",
+        free=say("No motor drives {names}. ", names=free) if free else "",
+        left=left,
+    )
+
+
 def _with_constraints(context: Context) -> tuple[Prose, tuple[Node, ...], bool]:
     """For which forces there are multipliers, the rows that are dependent there, and if anything is free."""
     robot = context.robot
-    columns, letter = wanted_rows(robot), formula("{forces}ᵀ", forces=_forces_of(robot))
-    held = multipliers(robot, _forces(context), context.values["Ac"], context.values["hc"])
+    columns, letter = wanted_rows(robot), formula("{forces}ᵀ", forces=forces_of(robot))
+    held = multipliers(robot, forces_in_balance(context), context.values["Ac"], context.values["hc"])
     order = held.rank + 1
     if order > len(columns):
         return ("The constraints leave nothing free: what they allow is an equilibrium. ",), (), False
@@ -495,13 +474,13 @@ def _balance_of(robot: Robot, forces: Node, values: Node) -> Node:
     """g = 0, or the rows of it that must be 0 where motors hold the others."""
     rows = wanted_rows(robot)
     if len(rows) == robot.n or not isinstance(values, MatrixTree):
-        return equation(forces, *([values] if is_small(values) else []), _ZERO)
+        return equation(forces, *([values] if is_small(values) else []), ZERO)
     return side_by_side([equation(_force(robot, k), values.rows[k][0], Number(0)) for k in rows])
 
 
 def _force(robot: Robot, k: int) -> Node:
     """g₁, or τ₁ in a motion that goes on, of a coordinate from 0."""
-    return letters.force(robot.coordinates[k]) if _is_steady(robot) else letters.entry("g", k + 1)
+    return letters.force(robot.coordinates[k]) if is_steady(robot) else letters.entry("g", k + 1)
 
 
 def _special(shown: EquilibriaForms, case: SpecialCase) -> Iterator[Prose]:
@@ -535,235 +514,11 @@ def _of_special_forces(shown: EquilibriaForms, case: SpecialCase, where: Node) -
     return say(text, where=where, zero=zero, exist=there, only=only)
 
 
-def _stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> Step:
-    robot = context.robot
-    steady = _is_steady(robot)
-    forces = _forces(context)
-    curved = linearization.curvature(robot, forces)
-    flat = _flat(robot, found, curved)
-    why: Prose = say(_ENERGY, of="potential energy", flat=flat)
-    if robot.questions.model.inputs_given:
-        of = say(f"energy $𝒫 - 𝛕ᵀ 𝐪$, the forces of the motors staying as they are{'' if flat else ','}")
-        why = say(_ENERGY, of=of, flat=flat)
-    working: tuple[Node, ...] = ()
-    if steady:
-        why = energy_of_motion(context, say("Where the matrix of its second derivatives{flat}", flat=flat))
-        working = (shown_energy(context),)
-    told = [
-        (point, _place(shown, point, case, shown.relations(one, case)))
-        for one, case, points in zip(found.alternatives, shown.equilibria, found.points, strict=True)
-        for point in _widest(points)
-    ]
-    more: Prose = ()
-    lines: tuple[Line, ...] = ()
-    if robot.questions.constraints:
-        told, more = _of_constrained(told, all(found.points))
-        meeting = [point.is_crossing for point, _ in told]
-        along = say(_ALONG_FREE, what="it" if steady else "the energy", curved=_curved(robot))
-        why = energy_of_motion(context, along) if steady else (*along, _CONSTRAINED_ENERGY)
-        why = why if not all(meeting) else ()
-        working = working if told else ()
-        why += (f"{' ' * bool(why)}{_MEETING}",) if any(meeting) else ()
-        lines = tuple(line for point, place in told for line in _along(shown, point, place))
-    else:
-        curvature = context.show(curved)
-        second = formula("∂{forces}/∂𝐪", forces=_forces_of(robot))
-        working = (*working, *([equation(second, curvature)] if is_small(curvature) else []))
-    sentences = [*(_verdict(context, shown, found, *one) for one in told), *([more] if more else [])]
-    if robot.questions.model.inputs_given and any(point.is_told for point, _ in told):
-        sentences.append((_CONSTANT,))
-    if any(point.is_told for point, _ in told) and not is_definite(context):
-        sentences.append(say(_DEFINITE))
-    slid = _held_by_friction(robot)
-    if slid and any(point.stability is not Stability.STABLE for point, _ in told):
-        holds = not robot.questions.constraints and _can_hold(context, curved, slid)
-        sentences.append(say(_NOT_HELD, held=_CAN_HOLD if holds else ""))
-    return Step(
-        id="equilibria_stability",
-        title="How stable they are",
-        why=why,
-        source=(SOURCE if steady else SLOTINE_LI.section("3.4")) if told else "",
-        working=working,
-        lines=lines,
-        concluding=tuple(part for sentence in sentences for part in (*sentence, " ")),
-        uses=("equilibria",),
-    )
-
-
-def _widest(points: Sequence[Point]) -> list[Point]:
-    """Those of one case without what is told of more poses, too: q₁ = 90°, q₂ = 0 beside q₁ = 90° alone."""
-    return [
-        one
-        for one in points
-        if not any(
-            {*other.values} < {*one.values} and replace(one, values=other.values) == other for other in points
-        )
-    ]
-
-
-_ENERGY = (
-    "Where the matrix of the second derivatives of the {of}{flat} is positive definite, the equilibrium is "
-    "stable; where the energy falls in some direction, it is not."
-)
-
-
-def _flat(robot: Robot, found: Equilibria, curved: Matrix) -> Prose:
-    """Of which coordinates rows and columns are left out, as these are 0 wherever stability is told.
-
-    Where the rest depends on some of them, it must be what it is to be for every value.
-    """
-    told = [point for points in found.points for point in points if point.is_told]
-    places = [set[int]() if point.drifts else {*point.neutral} for point in told]
-    names = [robot.coordinates[k].name for k in sorted(set.intersection(*places))] if places else []
-    if not names:
-        return ()
-    rows = "row and column" if len(names) == 1 else "rows and columns"
-    inside = [
-        Symbol(name)
-        for name in names
-        if any(not robot.ring.diff(entry, robot.ring.names.index(name)).is_zero for entry in curved.entries)
-    ]
-    return say(
-        f", without the {rows} of {{names}}, which are 0 there,{{ever}}",
-        names=listed([*map(Symbol, names)]),
-        ever=say(" for every {inside}", inside=listed(inside)) if inside else "",
-    )
-
-
-def _of_constrained(
-    told: list[tuple[Point, Prose]], are_points: bool
-) -> tuple[list[tuple[Point, Prose]], Prose]:
-    """What is known of equilibria that constraints hold, and that of others nothing is, if there are any."""
-    known = [(point, sentence) for point, sentence in told if point.is_told]
-    if len(known) == len(told) and are_points:
-        return known, ()
-    return known, (f"How stable {'the others' if known else 'they'} are is not told here.",)
-
-
-_ALONG_FREE = (
-    "Along what the constraints leave free, the columns of $𝐙$ with $𝐀_c 𝐙 = 𝟎$, {what} is curved as "
-    "{curved} is, with the $𝛌$ of the equilibrium. Where that"
-)
-_CONSTRAINED_ENERGY = (
-    " is positive definite, the equilibrium is stable; where the energy falls in some direction, it is not."
-)
-_MEETING = (
-    "Smooth sets of configurations, each with a factor of the constraints that is 0, meet at such a point. "
-    "Where the energy is curved upwards along each of them, the equilibrium is stable; where it falls along "
-    "one, it is not."
-)
-
-
-def _curved(robot: Robot) -> Node:
-    """How the energy is curved between the columns of Z."""
-    return formula("𝐙ᵀ (∂({forces} - 𝐀_cᵀ 𝛌)/∂𝐪) 𝐙", forces=_forces_of(robot))
-
-
-def _along(shown: EquilibriaForms, point: Point, place: Prose) -> Iterator[Line]:
-    """Z, λ and the matrix between Z at an equilibrium, where they can be read."""
-    if point.along is None:
-        return
-    found = point.along
-    products = ProductForms(shown.compactor(found.free.ring))
-    free, held, second = map(products.of, (found.free, found.multipliers, found.second))
-    if is_small(free, held, second):
-        told = (
-            formula("𝐙 = {free}", free=free),
-            equation(letters.LAMBDA, scalar(held)),
-            equation(_curved(shown.robot), scalar(second)),
-        )
-        yield Line(say("{place}:", place=place), told, is_kept=True)
-
-
-def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...], told: Sequence[Node]) -> Prose:
-    """At q₁ = -90°, q₂ = 0; in a case what is `told` of it is not told once more."""
-    names = [q.name for q in shown.robot.coordinates]
-    at = []
-    for angle, degrees in turned(point.values):
-        moving, fixed = by_coordinates(angle, names)
-        at.append(equation(angle_node(moving, names), angle_node(fixed + Angle(degrees=degrees))))
-    if at and len(at) == len(case):
-        return ("At ", side_by_side(at))
-    if not case:
-        return ("In every configuration",)
-    cases = shown.equilibria
-    at = [one for one in at if one not in told]
-    among = "In equilibrium" if len(cases) == 1 else f"In case {cases.index(case) + 1}"
-    return (among, " at ", side_by_side(at)) if at else (among,)
-
-
-def _verdict(
-    context: Context, shown: EquilibriaForms, found: Equilibria, point: Point, place: Prose
-) -> Prose:
-    """At q₁ = -90°, q₂ = 0: stable."""
-    said = _VERDICTS[point.stability]
-    needed = [*map(shown.inequality, point.conditions), *(shown.comparison(f, "≠") for f in point.nonzero)]
-    if point.is_open and not point.falls:
-        here = next(points for points in found.points if point in points)
-        is_beside = any(other.is_told for other in here if other is not point)
-        if is_beside and len(found.points) == 1:
-            return ("How stable the others are is not told here.",)
-        return say(f"{{place}} the stability{' of the others' * is_beside} is not told here.", place=place)
-    if needed and not point.is_open:
-        verdict: Prose = said if point.stability is Stability.UNSTABLE else ("stable",)
-        said = say("{verdict} where {all}", verdict=verdict, all=listed(needed))
-    if point.falls:
-        fails = [shown.comparison(bound.value, "<") for bound in point.conditions]
-        one: Prose = ("one of these inequalities is reversed",) if len(fails) > 1 else (fails[0],)
-        said = say(
-            "{stable}, not stable where {one}{root}", stable=said, one=one, root=_root(shown, found, point)
-        )
-        if point.is_open:
-            said = say("not stable where {fails}", fails=listed(fails, "or"))
-    robot = context.robot
-    steady = dict(robot.questions.model.steady)
-    names = [robot.coordinates[k].name for k in point.neutral]
-    free = listed([Symbol(name) for name in names if name not in steady])
-    slopes = (robot.ring.diff(force, k) for force in _forces(context).entries for k in point.neutral)
-    changes = any(not slope.is_zero for slope in slopes)
-    if point.inside:
-        inside = listed([*map(shown.inequality, point.inside)])
-        place = say("{place}, where {inside}", place=place, inside=inside)
-    is_held = point.is_told and not point.is_open and point.stability is not Stability.UNSTABLE
-    along = say(", but for {free}, {why}", free=free, why=_AT_ANY[changes]) if free and is_held else ""
-    if point.drifts:
-        along = (", but for motions along the equilibria, in which nothing changes",)
-    higher = tuple(part for one in point.higher for part in _higher(shown, one))
-    return say("{place}: {said}{along}.{higher}", place=place, said=said, along=along, higher=higher)
-
-
-def _higher(shown: EquilibriaForms, one: Higher) -> Prose:
-    """The first derivative by x that is not 0 there is the fourth, 24c: its sign decides."""
-    by = say("along $𝐙$")
-    if one.coordinate is not None:
-        by = say("by {name}", name=Symbol(shown.robot.coordinates[one.coordinate].name))
-    value = say(", {value}", value=shown.compactor(one.value.ring).form(one.value)) if one.is_exact else ()
-    decides = ": beside it the energy falls on one side" if one.order % 2 else ", and its sign decides"
-    text = " The first derivative of the energy {by} that is not 0 there is the {order}{value}{decides}."
-    return say(text, by=by, order=_ORDINALS[one.order], value=value, decides=decides)
-
-
-def _root(shown: EquilibriaForms, found: Equilibria, point: Point) -> str:
-    """At which root of a quadratic the only condition of a point holds."""
-    cases = (case for case, points in zip(found.alternatives, found.points, strict=True) if point in points)
-    values = [bound.value for bound in point.conditions]
-    for one in (one for case in cases for one in case if len(values) == 1):
-        if sign := shown.positive_root(one, values[0]):
-            return f", in this order with {'+ and -' if sign > 0 else '- and +'}"
-    return ""
-
-
-_ORDINALS = {3: "third", 4: "fourth", 5: "fifth", 6: "sixth", 7: "seventh", 8: "eighth"}
-_AT_ANY = ("along which nothing changes", "with any value of which it is an equilibrium")
-
-_VERDICTS: dict[Stability, Prose] = {
-    Stability.STABLE: ("stable",),
-    Stability.UNSTABLE: ("not stable",),
-    Stability.UNDECIDED: ("second derivatives alone do not decide",),
-}
-
-
 # -- nowhere to move -------------------------------------------------------------------------------
+
+_UNBALANCED = "{never} cannot hold, as masses and lengths of the table are positive: no parameters will do."
+_A_NUMBER = "A coefficient is a number other than 0: no parameters will do."
+_EXCLUDING = "They exclude each other, as no mass and no length of the table is 0: no parameters will do."
 
 
 def _balance(context: Context) -> Step:
@@ -771,7 +526,7 @@ def _balance(context: Context) -> Step:
     if isinstance(found, Skipped):
         return not_derived("balance", "What balances gravity", found.why)
     shown = EquilibriaForms(context.robot, context.values).balance
-    goal: Node = _ZERO if wanted is None else context.show(wanted)
+    goal: Node = ZERO if wanted is None else context.show(wanted)
     g = equation(letters.G, context.form("g"))
     pairs = [(equation(form, Number(0)), value) for form, value in zip(shown, found, strict=True)]
     conditions = tuple(one for one, value in pairs if not value.is_number)
@@ -801,157 +556,6 @@ def _balance(context: Context) -> Step:
         notes=(outcome,) if outcome else notes,
         outcome=outcome,
         detail=Detail.BRIEF,
-    )
-
-
-# -- near one of them ------------------------------------------------------------------------------
-
-
-_UNBALANCED = "{never} cannot hold, as masses and lengths of the table are positive: no parameters will do."
-_A_NUMBER = "A coefficient is a number other than 0: no parameters will do."
-_EXCLUDING = "They exclude each other, as no mass and no length of the table is 0: no parameters will do."
-_NOT_STEADY = "The equilibrium is one at rest, all rates being 0, and none of the motion above. "
-_SECOND_ORDER = (
-    "$𝐂 𝐪̇$ is of second order in the rates and falls away; so does every change of $𝐃$, which stands beside "
-    "an acceleration. "
-)
-
-
-def _shared_divisor(context: Context) -> SharedDivisor | None:
-    """det D in the equilibrium, or what is left of it, where many entries of A and B are over that."""
-    found = [context.values[name] for name in ("linear_A", "linear_B") if name in context.wanted]
-    matrices = [one for one in found if not isinstance(one, Skipped)]
-    if not matrices:
-        return None
-    size = determinant(linearization.at_equilibrium(context.robot).matrix(context.values["D"]))
-    return shared_divisor(context.forms.products, matrices, size)
-
-
-def _linear_form(context: Context, name: str, shared: SharedDivisor | None) -> Node:
-    return context.form(name) if shared is None else shared.form(context.values[name])
-
-
-def _state_matrix(context: Context, shared: SharedDivisor | None) -> Step:
-    robot, value = context.robot, context.values["linear_A"]
-    if isinstance(value, Skipped):
-        return not_derived("linear_A", "The matrix A of the linear model", value.why)
-    has_friction = robot.actions.resisting
-    passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
-    by = f"{robot.held_by} {'do' if 'spring' in robot.held else 'does'}"
-    balanced = f"No motor drives {{passive}}: in the equilibrium {by} not move {{which}}. "
-    rests = [
-        equation(Symbol(name, dots), value)
-        for (name, dots), value in robot.questions.model.equilibrium.items()
-    ]
-    at = linearization.at_equilibrium(robot)
-    outside = next((context.values[name] for name in outside_names(robot)), None)
-    still, of_still = context.values["g"], _DG
-    if outside is not None:
-        still, of_still = still - outside, formula("∂(𝐠 - 𝐐)/∂𝐪")
-    D, g = at.matrix(context.values["D"]), linearization.stiffness(robot, still)
-    working: list[Node] = [equation(letters.D, context.show(D)), equation(of_still, context.show(g))]
-    if has_friction:
-        F = linearization.damping(robot, context.values["friction"])
-        working.append(equation(letters.bold("F"), context.show(F)))
-    if shared is None and not is_diagonal(D):
-        working.append(equation(letters.DET_D, context.show(determinant(D))))
-    jumps = "Coulomb friction jumps where a rate changes its sign: it has no part in a linear model."
-    return Step(
-        id="linear_A",
-        title="The motion near the equilibrium",
-        why=say(
-            "The state is how far the coordinates are from the equilibrium, $𝐪 - 𝐪_e$, and their rates; the "
-            "inputs are counted from the forces that hold it. {at_rest}{balanced}{moving}The matrices are "
-            "taken at {rests}. $𝐄$ is the identity matrix{friction}.",
-            at_rest=_NOT_STEADY if "equilibria" in context.wanted and robot.questions.model.steady else "",
-            moving=say(_SECOND_ORDER)
-            if any(map(robot.ring.depends_on_coordinates, context.values["D"].entries))
-            else "",
-            friction=say(", $𝐅$ the factors of the rates in the friction") if has_friction else "",
-            balanced=say(balanced, passive=listed(passive, "or"), which="it" if len(passive) == 1 else "them")
-            if passive
-            else "",
-            rests=side_by_side(rests),
-        ),
-        formula=equation(
-            letters.LINEAR_A,
-            formula(
-                "[𝟎, 𝐄; -𝐃⁻¹ {still}, {F}]", still=of_still, F=formula("-𝐃⁻¹ 𝐅") if has_friction else _ZERO
-            ),
-        ),
-        source=_SOURCE,
-        working=tuple(working),
-        lines=() if shared is None else (shared.line,),
-        result=(equation(letters.LINEAR_A, _linear_form(context, "linear_A", shared)),),
-        defines=() if shared is None else (shared.meaning,),
-        notes=((jumps,),) if any(act.functions(robot) for act in has_friction) else (),
-        detail=Detail.BRIEF,
-    )
-
-
-def _input_matrix(context: Context, shared: SharedDivisor | None) -> Step:
-    robot, value = context.robot, context.values["linear_B"]
-    if isinstance(value, Skipped):
-        return not_derived("linear_B", "The matrix B of the linear model", value.why)
-    inputs: list[Node] = [letters.force(robot.coordinates[k]) for k in linearization.driven(robot)]
-    column = "A column for each input" if len(inputs) > 1 else "One column, of the only input"
-    ones = "has a 1 in the row of each, a column each" if len(inputs) > 1 else "has a 1 in its row"
-    if len(inputs) == robot.n:
-        ones = "is the identity matrix"
-    return Step(
-        id="linear_B",
-        title="What the inputs do to it",
-        why=say("{column}: {inputs}. $𝐒$ {ones}.", column=column, inputs=listed(inputs), ones=ones),
-        formula=equation(letters.LINEAR_B, formula("[𝟎; 𝐃⁻¹ 𝐒]")),
-        source=_SOURCE,
-        result=(equation(letters.LINEAR_B, _linear_form(context, "linear_B", shared)),),
-        defines=() if shared is None else (shared.meaning,),
-        detail=Detail.BRIEF,
-    )
-
-
-# -- what the step of equilibria says of a steady motion, in which some rates are constant ---------
-
-SOURCE = GOLDSTEIN.section("2.7")
-FORCES = formula("𝐂 𝐪̇ + 𝐠")
-
-
-def why(context: Context, left: Node) -> Prose:
-    """Which rates are held, by what, and what is `left` of the equations of the others."""
-    robot = context.robot
-    rates = robot.questions.model.steady
-    passive = {robot.coordinates[k].name for k in robot.actions.passive}
-    free = listed([Symbol(name) for name, _ in rates if name in passive], "or")
-    driven = listed([Symbol(name) for name, _ in rates if name not in passive])
-    return say(
-        "In this motion {held} all the time; the other rates and all accelerations are 0. {driven}{free}Of "
-        "the equations of the others {left} is left. ",
-        held=side_by_side([equation(Symbol(name, 1), value) for name, value in rates]),
-        driven=say("Motors keep the rate of {names}, whatever that takes. ", names=driven) if driven else "",
-        free=say("No motor drives {names}. ", names=free) if free else "",
-        left=left,
-    )
-
-
-def shown_energy(context: Context) -> Node:
-    """The energy whose derivatives these forces are."""
-    value = context.show(steady_energy(context.robot, context.values["P"], context.values["K"]))
-    return equation(letters.STEADY_ENERGY, formula("𝒫 - 𝒦"), value)
-
-
-def energy_of_motion(context: Context, where: Prose) -> Prose:
-    """What the stability follows from: `where` something is positive definite."""
-    elsewhere = "; where {V} falls in some direction, it is not. "
-    if may_be_held(context.robot, context.values["D"]):
-        elsewhere = (
-            ". Elsewhere nothing is said: what {V} alone lets fall may be held by forces of first order in "
-            "the rates, or by a rate that is free to change. "
-        )
-    return say(
-        "These forces are the derivatives of {V}, the potential energy less the kinetic energy of the "
-        "motion. {where} is positive definite, the motion is stable" + elsewhere,
-        V=letters.STEADY_ENERGY,
-        where=where,
     )
 
 
