@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from msgspec import Struct
 from msgspec.structs import asdict, replace
 
 from dynsolve.algebra.matrix import Matrix, cross
@@ -44,8 +43,20 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.questions.newton_euler import recursions
+from dynsolve.questions.newton_euler.terms import (
+    CHILD,
+    Names,
+    Rates,
+    acceleration,
+    angular_acceleration,
+    angular_velocity,
+    center_acceleration,
+    inertial_force,
+    moment_of_body,
+    moment_of_next,
+)
 from dynsolve.robot import units
-from dynsolve.robot.model import Body, Convention, Coordinate, Joint, JointType, Robot
+from dynsolve.robot.model import Body, Coordinate, Joint, JointType
 from dynsolve.robot.questions import Method
 
 LETTERS = """
@@ -80,122 +91,6 @@ def steps(context: Context) -> Iterator[Step]:
         yield _lagrange(context)
     else:
         yield from _ends(context)
-
-
-# -- the letters of a link, and the terms of each recursion in them, of one link or of link i ------
-
-
-class Names(Struct, frozen=True):
-    """The letters of a link by its index and that of the frame before it, and of one of its bodies.
-
-    In the `standard` convention the joint lies on the axis of the frame before.
-    """
-
-    i: Node
-    before: Node
-    standard: bool
-    body: Node = letters.COUNT
-
-    @staticmethod
-    def of(robot: Robot, link: int, body: Body | None = None) -> Names:
-        """Those of one link."""
-        before, standard = robot.joints[link - 1].parent, robot.convention is Convention.STANDARD
-        index = letters.COUNT if body is None else letters.index_of(body.name)
-        return Names(Number(link), Number(before), standard, index)
-
-    @staticmethod
-    def general(context: Context) -> Names:
-        """Those of link i; in a tree its row starts from frame p."""
-        before = _PARENT if context.robot.is_tree else letters.BEFORE
-        return Names(letters.COUNT, before, context.standard)
-
-    def __call__(self, text: str, **values: Node) -> Node:
-        """A formula of the link, in which
-
-        - R is R_i^{i-1}, z the joint's axis along the axes of frame i, and r leads from o_{i-1} to o_i, along
-          the axes of frame i, in the modified convention of frame i-1;
-        - rc leads to the mass centre from o_{i-1}, in the modified convention from o_i; ac and I are its
-          acceleration and the tensor about it;
-        - w, dw and a are ω_i^i, ω̇_i^i and a_i^i; w0, dw0 and a0 those of the link before; g is g_0^i.
-        """
-        i, before, k = self.i, self.before, self.body
-        own = {
-            "R": letters.bold("R", i, before),
-            "z": letters.bold("z", before if self.standard else i, i),
-            "r": letters.bold("r", Row((before, Words(","), i)), i if self.standard else before),
-            "rc": letters.bold(
-                "r", Row((*((before, Words(",")) if self.standard else ()), Words("c"), k)), i
-            ),
-            "ac": letters.bold("a", Row((Words("c"), k)), i),
-            "I": letters.bold("I", Row((Words("c"), k)), i),
-            "g": letters.bold("g", Number(0), i),
-        }
-        for name, base, dots in (("w", "omega", 0), ("dw", "omega", 1), ("a", "a", 0)):
-            own[name] = letters.bold(base, i, i, dots)
-            own[f"{name}0"] = letters.bold(base, before, before, dots)
-        return formula(text, i=i, **{**own, **values})
-
-
-_PARENT, _CHILD = Symbol("p"), Symbol("k")
-"""The frame from which the row of link i starts, and a link that follows it, in a tree."""
-
-Rates = tuple[Node, Node] | None
-"""The first and second rate of a joint's variable; None of a joint that does not move so."""
-
-
-def _angular_velocity(link: Names, spin: Rates) -> list[Node]:
-    """Rᵀ ω_{i-1} + z θ̇_i"""
-    return [link("{R}ᵀ {w0}"), *([link("{z} {rate}", rate=spin[0])] if spin else [])]
-
-
-def _angular_acceleration(link: Names, spin: Rates) -> list[Node]:
-    """Rᵀ ω̇_{i-1} + z θ̈_i + ω_i × z θ̇_i"""
-    own = [link("{z} {rate}", rate=spin[1]), link("{w} × ({z} {rate})", rate=spin[0])] if spin else []
-    return [link("{R}ᵀ {dw0}"), *own]
-
-
-def _turning(link: Names, lever: Node) -> list[Node]:
-    """ω̇ × r + ω × (ω × r)"""
-    return [link("{dw} × {lever}", lever=lever), link("{w} × ({w} × {lever})", lever=lever)]
-
-
-def _acceleration(link: Names, slide: Rates, lever: str = "{r}") -> list[Node]:
-    """The terms of the acceleration a lever away from o_{i-1}; `slide` are ḋ_i and d̈_i.
-
-    The lever turns with link i in the standard convention, with link i-1 in the modified one.
-    """
-    if link.standard:
-        carried = [link("{R}ᵀ {a0}"), *_turning(link, link(lever))]
-    else:
-        carried = [link("{R}ᵀ ({a0} + {dw0} × {r} + {w0} × ({w0} × {r}))")]
-    if slide is None:
-        return carried
-    coriolis = formula("2 {product}", product=link("{w} × ({z} {rate})", rate=slide[0]))
-    return [*carried, coriolis, link("{z} {rate}", rate=slide[1])]
-
-
-def _center_acceleration(link: Names, slide: Rates) -> list[Node]:
-    """The same of a mass centre: from o_{i-1} in the standard convention, else from o_i."""
-    if link.standard:
-        return _acceleration(link, slide, "{rc}")
-    return [link("{a}"), *_turning(link, link("{rc}"))]
-
-
-def _inertial_force(link: Names, mass: Node, is_heavy: bool) -> Node:
-    """m (a_c - g_0), where gravity is a force of its own; else m a_c."""
-    return link("{m} ({ac} - {g})" if is_heavy else "{m} {ac}", m=mass)
-
-
-def _moment_of_next(link: Names, after: Names) -> list[Node]:
-    """R n_{i+1} + r × (R f_{i+1}), r from the point of n_i to that of n_{i+1}."""
-    lever = (link if link.standard else after)("{r}")
-    return [after("{R} 𝐧_{i}^{i}"), after("{lever} × ({R} 𝐟_{i}^{i})", lever=lever)]
-
-
-def _moment_of_body(link: Names, inertial: Node, is_point: bool) -> list[Node]:
-    """r × F + I ω̇ + ω × (I ω), r from the point of n_i to the mass centre; of a point mass r × F."""
-    turned = [] if is_point else [link("{I} {dw}"), link("{w} × ({I} {w})")]
-    return [link("{rc} × ({F})", F=inertial), *turned]
 
 
 # -- the steps: what is known of each link, then a sum of terms each, its parts before it is added up
@@ -327,7 +222,7 @@ def _turning_step(context: Context, joint: Joint) -> Step:
     """ω_i, with this robot's matrices where there is anything to work out."""
     i, link = joint.index, Names.of(context.robot, joint.index)
     spin = _rates(context, joint, JointType.REVOLUTE)
-    parts = [(term, None) for term in _angular_velocity(link, spin)]
+    parts = [(term, None) for term in angular_velocity(link, spin)]
     why = say("{why}", why=_turning_why(joint))
     step = _sum(context, f"wl{i}", f"Link {i}, outwards: angular velocity", why, link("{w}"), parts)
     if not joint.parent:
@@ -362,7 +257,7 @@ def _spinning_step(context: Context, joint: Joint) -> Step:
         first, second = (recursions.joint_rate(robot, joint, A, dots) for dots in (1, 2))
         values += [second, cross(context.values[f"wl{i}"], first)]
         why = "The joint's own acceleration, and the turning of its axis with the link."
-    title, terms = f"Link {i}, outwards: angular acceleration", _angular_acceleration(link, spin)
+    title, terms = f"Link {i}, outwards: angular acceleration", angular_acceleration(link, spin)
     return _sum(context, f"wdl{i}", title, (why,), link("{dw}"), list(zip(terms, values, strict=True)))
 
 
@@ -376,7 +271,7 @@ def _motion_before(context: Context, joint: Joint) -> recursions.Motion:
 def _origin_step(context: Context, joint: Joint) -> Step:
     """The acceleration of o_i."""
     i, link = joint.index, Names.of(context.robot, joint.index)
-    terms = _acceleration(link, _rates(context, joint, JointType.PRISMATIC))
+    terms = acceleration(link, _rates(context, joint, JointType.PRISMATIC))
     base: Prose = ()
     if not joint.parent and (context.standard or context.robot.gravity.is_zero):
         base = (" The base is at rest.",)
@@ -412,7 +307,7 @@ def _carried(context: Context, joint: Joint, beyond: Matrix | None) -> tuple[Mat
 def _center_step(context: Context, joint: Joint, body: Body) -> Step:
     """The acceleration of a mass centre."""
     link = Names.of(context.robot, joint.index, body)
-    terms = _center_acceleration(link, _rates(context, joint, JointType.PRISMATIC))
+    terms = center_acceleration(link, _rates(context, joint, JointType.PRISMATIC))
     if context.standard:
         why = "As for an origin, with the way from the origin before to the mass centre."
         values = _carried(context, joint, body.center)
@@ -476,7 +371,7 @@ def _force_why(context: Context, i: int) -> str:
 def _inertial(context: Context, body: Body) -> tuple[Node, Matrix]:
     """m (a_c - g_0) of a body."""
     H, acceleration = context.values[f"H{body.link}"], context.values[f"acl{body.name}"]
-    name = _inertial_force(
+    name = inertial_force(
         Names.of(context.robot, body.link, body), context.forms.mass(body), _is_heavy(context)
     )
     return name, recursions.inertial_force(context.robot, body, H, acceleration)
@@ -499,14 +394,14 @@ def _moments(context: Context, i: int) -> Iterator[Part]:
         A: Matrix = values[f"A{j}"]
         reach = start if context.standard else origin(A)
         found = [rotation(A) @ values[f"nl{j}"], cross(reach, rotation(A) @ values[f"fl{j}"])]
-        yield from zip(_moment_of_next(Names.of(robot, i), Names.of(robot, j)), found, strict=True)
+        yield from zip(moment_of_next(Names.of(robot, i), Names.of(robot, j)), found, strict=True)
     for body in robot.bodies_on(i):
         name, inertial = _inertial(context, body)
         found = [cross(start + body.center, inertial)]
         if not body.is_point:
             tensor, w, dw = _tensor(context, body), values[f"wl{i}"], values[f"wdl{i}"]
             found += [tensor @ dw, cross(w, tensor @ w)]
-        yield from zip(_moment_of_body(Names.of(robot, i, body), name, body.is_point), found, strict=True)
+        yield from zip(moment_of_body(Names.of(robot, i, body), name, body.is_point), found, strict=True)
     yield from _rotor_moments(context, i)
 
 
@@ -648,14 +543,14 @@ def general_steps(context: Context) -> Iterator[Step]:
                 f"Outwards over {over}",
                 "From the first link on, the motion of each follows from that of the one before.",
                 {
-                    "{w}": _angular_velocity(link, spin),
-                    "{dw}": _angular_acceleration(link, spin),
-                    "{a}": _acceleration(link, slide),
-                    "{ac}": _center_acceleration(link, slide),
+                    "{w}": angular_velocity(link, spin),
+                    "{dw}": angular_acceleration(link, spin),
+                    "{a}": acceleration(link, slide),
+                    "{ac}": center_acceleration(link, slide),
                 },
             )
-    after = Names(_CHILD if is_tree else letters.AFTER, letters.COUNT, context.standard)
-    inertial = _inertial_force(link, formula("m_i"), _is_heavy(context))
+    after = Names(CHILD if is_tree else letters.AFTER, letters.COUNT, context.standard)
+    inertial = inertial_force(link, formula("m_i"), _is_heavy(context))
     yield _general(
         context,
         "inwards",
@@ -664,7 +559,10 @@ def general_steps(context: Context) -> Iterator[Step]:
         + " Each link k that follows link i has the terms with k." * is_tree,
         {
             "𝐟_{i}^{i}": [after("{R} 𝐟_{i}^{i}"), inertial],
-            "𝐧_{i}^{i}": [*_moment_of_next(link, after), *_moment_of_body(link, inertial, is_point=False)],
+            "𝐧_{i}^{i}": [
+                *moment_of_next(link, after),
+                *moment_of_body(link, inertial, is_point=False),
+            ],
         },
     )
 
