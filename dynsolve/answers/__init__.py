@@ -8,15 +8,15 @@
     feedback        the `Report` as JSON, and as a document for a student or a teacher
     verdict         the records of all that is said, of a hand-in as it was read, and of what was not judged
 
-`judge` ties them together: `Checker` for one problem, `Judge` for one hand-in, within limits of time and
-memory.  Why an answer got its verdict is decided, in this order, by
+`judge` ties them together: `Checker` for one problem, `Judge` for one hand-in; `limits` runs them in a child
+process with limits of time and memory.  Why an answer got its verdict is decided, in this order, by
 
     judging.key_comparison   is every entry equal to the key's?  (`entry_comparison`:
                              exactly, with numbers for symbols, or rounded)       correct
     judging.explanation      do the student's own answers lead to it?             follows
     answer_verdict           neither                                              wrong
     diagnosis.diagnoser      why: the first explanation of its list that fits
-    judge                    a formula of names alone is what the student's own answers make of it; what is
+    unwritten                a formula of names alone is what the student's own answers make of it; what is
                              asked for and not written by itself                  missing
 
 A Denavit-Hartenberg table is judged as a whole, by the mechanism that it describes: `table_verdict`;

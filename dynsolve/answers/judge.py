@@ -7,37 +7,13 @@
 
 The answers of the report stand in the order of the derivation, so that the first slip
 comes first.
-
-Answers that are asked for and not written by themselves: judged by what is written of them.
-
-- a whole by its parts, where all of them are written: K by K1 and K2, D by its entries;
-- an entry by the matrix that it stands in, or by the entry that it mirrors in D;
-- the entries of C by their row of C q̇, since C itself is free.
-
-What nothing is written of is missing.
-
-Formulas of names alone that count as answers: τ = D q̈ + C q̇ + g beside a D, a C and a g of one's own.
-
-A formula like this says how a quantity is found, and is a definition.  Where the quantity is
-asked for, and nothing else in the file gives it, it is what the student's own answers make of it.
-
-The reader and the ring bound their work before it is done; still, a library in C cannot
-be interrupted, and aborts its process where memory ends.  The limit of time is on the
-processor, not on the clock, so that no verdict depends on how busy the machine is.
-Where a child is stopped, the answers are tried one by one, and what stops its child is
-unreadable.
 """
 
 from __future__ import annotations
 
-import os
-import pickle
-import signal
-import traceback
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, TypeVar
 
 from msgspec.structs import replace
 
@@ -60,158 +36,25 @@ from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.explanation import Explanations
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.hand_in import ComparedHandIn
-from dynsolve.answers.judging.key_comparison import KeyComparison
 from dynsolve.answers.marks import Policy, mark, weighed
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.answers.reading.report_text import NO_CLAIMS
 from dynsolve.answers.table_verdict import NAME as TABLE
 from dynsolve.answers.table_verdict import TableJudge
+from dynsolve.answers.unwritten import coriolis_entries, general_formulas, is_given, needed, unwritten
 from dynsolve.answers.verdict import (
-    Answer,
     JudgedAnswer,
     Ledger,
     NotRecognized,
     Report,
     Submission,
     Verdict,
-    worst,
 )
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import derive
-from dynsolve.errors import Finding
 from dynsolve.problem.model import Problem
-from dynsolve.quantities import families
 from dynsolve.quantities.family import FORMED
-from dynsolve.quantities.index import Quantities, quantities
-
-# Formulas of names alone that count as answers
-
-_JACOBIANS = frozenset({"J", "Jv", "Jr"})
-"""What a hand-in calls J is any of these, by its shape."""
-
-
-def general_formulas(submission: Submission, asked: Collection[str], named: Quantities) -> Iterator[Answer]:
-    """The formulas of names alone that answer what is asked and not given, from what is given.
-
-    They come behind all that they are put together from, which does not follow from them.
-    """
-    given = {answer.name for answer in submission.answers}
-    behind = 1 + max((answer.occurrence[0] for answer in submission.answers), default=0)
-    for place, answer in enumerate(submission.general):
-        if answer.name not in asked or is_given(named, answer.name, given):
-            continue
-        if (
-            answer.node is not None
-            and answer.references
-            and all(is_given(named, name, given) for name in needed(named, answer.name, answer.references))
-        ):
-            yield replace(answer, occurrence=(behind + place, 0))
-
-
-def needed(named: Quantities, name: str, references: Iterable[str]) -> list[str]:
-    """What a formula of an answer needs: what stands in it, but for forces that are its inputs."""
-    forces = (families.TAU, families.FORCE) if families.holds_forces(name) else ()
-    return [other for other in references if named[other].family not in forces]
-
-
-def is_given(named: Quantities, name: str, given: Collection[str]) -> bool:
-    """Whether a quantity is written, by itself or by an entry or a part of it."""
-    return (
-        name in given
-        or (name in _JACOBIANS and not _JACOBIANS.isdisjoint(given))
-        or any(named.entry_of(other)[0] == name for other in given)
-        or any(part in given for part in named.parts(name))
-    )
-
-
-# Answers that are asked for and not written by themselves
-
-BY_PARTS = "judged by its parts"
-BY_MIRROR = "judged as the entry that it mirrors: D is symmetric"
-
-_ROWS_OF_J = {"Jv": range(1, 4), "Jw": range(4, 7)}
-
-Answers = Mapping[str, JudgedAnswer]
-
-
-def unwritten(graph: AnswerGraph, name: str, of: Fraction, answers: Answers) -> JudgedAnswer:
-    """The verdict of what is not written, from the answers that are; `of` are its marks."""
-    parts = _written_parts(graph, name, answers)
-    if parts is None:
-        notes = tuple(_incomplete(graph, name, answers))
-        base = JudgedAnswer(name, Verdict.MISSING, of=of, given=False, notes=notes)
-        return _within_whole(graph, base, answers) or base
-    verdict = worst([part.verdict for part in parts])
-    used = [source for part in parts for source in part.follows_from] if verdict is Verdict.FOLLOWS else []
-    found = JudgedAnswer(name, verdict, parts[0].label, parts[0].place, of=of, given=False, notes=(BY_PARTS,))
-    waits = all(part.waits for part in parts if part.verdict is Verdict.UNREADABLE)
-    return replace(found, follows_from=in_order(graph, used), waits=waits and verdict is Verdict.UNREADABLE)
-
-
-def _incomplete(graph: AnswerGraph, name: str, answers: Answers) -> Iterator[str]:
-    """Which parts of a whole are there, and which are not, where only some are."""
-    parts = graph.quantities.parts(name)
-    there = [part for part in parts if {part, graph.quantities.mirrored(part)} & answers.keys()]
-    if there:
-        lacking = ", ".join(
-            dict.fromkeys(min(p, graph.quantities.mirrored(p)) for p in parts if p not in there)
-        )
-        yield f"{', '.join(there)} {'are' if len(there) > 1 else 'is'} there, but not {lacking}"
-
-
-def _within_whole(graph: AnswerGraph, base: JudgedAnswer, answers: Answers) -> JudgedAnswer | None:
-    """An entry as it stands in the matrix, or as the one that it mirrors in D; J_v and J_ω as rows of J."""
-    name, entry = graph.quantities.entry_of(base.name)
-    rows = _ROWS_OF_J.get(base.name, ())
-    mirrored = answers.get(graph.quantities.mirrored(base.name))
-    if mirrored is not None and mirrored.given:
-        return replace(mirrored, name=base.name, of=base.of, given=False, notes=(BY_MIRROR,))
-    whole = answers.get("J" if rows else name)
-    if whole is None or not whole.given:
-        return None
-    place = tuple(i + 1 for i in entry)
-    own = [e for e in whole.entries if e.index[0] in rows or place in (e.index, (*e.index, *place[1:2]))]
-    verdict = worst([e.verdict for e in own]) if own else whole.verdict
-    found = next((e for e in own if e.verdict is verdict), None)
-    block = tuple(replace(e, index=(e.index[0] - rows[0] + 1, *e.index[1:])) for e in own) if rows else ()
-    return replace(
-        base, verdict=verdict, label=whole.label, place=whole.place, entries=block,
-        notes=(f"{'rows' if rows else 'an entry'} of {whole.name}",),
-        follows_from=found.follows_from if found else (),
-        diagnosis=found.diagnosis if found else whole.diagnosis, fault=whole.fault,
-        expected=whole.expected, difference=found.difference if found else None,
-    )  # fmt: skip
-
-
-def _written_parts(graph: AnswerGraph, name: str, answers: Answers) -> list[JudgedAnswer] | None:
-    """The written answers that a whole is made of, None where one of them is missing."""
-    found: list[JudgedAnswer] = []
-    for part in graph.quantities.parts(name):
-        mirrored = graph.quantities.mirrored(part)
-        if part in answers:
-            found.append(answers[part])
-        elif mirrored in answers:
-            found.append(answers[mirrored])
-        else:
-            inner = _written_parts(graph, part, answers)
-            if inner is None:
-                return None
-            found += inner
-    return found or None
-
-
-def coriolis_entries(
-    judge: AnswerJudge, assembled: KeyComparison, answers: Answers
-) -> Iterator[tuple[str, JudgedAnswer]]:
-    """The entries of C, each with the verdict of its row of C q̇; `assembled` is C made of them."""
-    whole = judge.compared(JudgedAnswer("C", Verdict.WRONG), assembled)
-    if assembled.obstacles:
-        return
-    for row in whole.entries:
-        for j in range(len(whole.entries)):
-            name = f"C{row.index[0]}{j + 1}"
-            told = {"diagnosis": row.diagnosis, "difference": row.difference}
-            yield name, replace(answers[name], verdict=row.verdict, follows_from=row.follows_from, **told)
+from dynsolve.quantities.index import quantities
 
 
 class Checker:
@@ -502,128 +345,3 @@ def _better(in_keys: JudgedAnswer | None, in_own: JudgedAnswer) -> JudgedAnswer:
         return in_keys
     is_other = in_own.given and ranks[0] != ranks[1]
     return replace(in_own, notes=(*in_own.notes, IN_OWN_FRAMES)) if is_other else in_own
-
-
-# Hand-ins are read and judged in a child process with limits of time and memory
-
-SECONDS = 2
-"""Processor time for one answer."""
-
-MEMORY = 1 << 30
-"""Bytes that a child may take beyond what it starts with."""
-
-TOO_MUCH = "this takes more than 2 s or 1 GiB to work out"
-REMEDY = "multiply out less, or name parts of it with `let`"
-
-
-_T = TypeVar("_T")
-
-
-class Stopped(Exception):
-    """A child was stopped by its limits."""
-
-
-def check_file(checker: Checker, source: bytes | str, file: str) -> Report:
-    """Read a hand-in and judge it, within limits; nothing in `source` raises."""
-    try:
-        submission = limited(lambda: checker.reader(source, file), 5 * SECONDS)
-    except Stopped:
-        fault = Finding("the file takes too much time or memory to read", "hand in a smaller file", file)
-        submission = Submission("", "", file, (), faults=(fault,))
-    return check_within(checker, submission)
-
-
-def check_within(checker: Checker, submission: Submission) -> Report:
-    """Judge what was read, within limits; what the key costs is not counted."""
-    checker.work_out(submission)
-    allowed = SECONDS * (len(submission.answers) + 1)
-    try:
-        return limited(lambda: checker(submission), allowed)
-    except Stopped:
-        sound = replace(submission, answers=_sound(checker, submission))
-    try:
-        return limited(lambda: checker(sound), allowed)
-    except Stopped:
-        refused = tuple(
-            replace(a, node=None, fault=a.fault or TOO_MUCH, expected=REMEDY) for a in sound.answers
-        )
-        return checker(replace(sound, answers=refused))
-
-
-def _sound(checker: Checker, submission: Submission) -> tuple[Any, ...]:
-    """The answers, with those that go over the limits by themselves unreadable."""
-    answers = []
-    for answer in submission.answers:
-        alone = replace(submission, answers=(answer,))
-        try:
-            limited(lambda alone=alone: checker(alone), SECONDS)  # type: ignore[misc]
-            answers.append(answer)
-        except Stopped:
-            answers.append(replace(answer, node=None, fault=TOO_MUCH, expected=REMEDY))
-    return tuple(answers)
-
-
-def limited(work: Callable[[], _T], seconds: float) -> _T:
-    """What `work` gives, made in a child process with limits.
-
-    Raises Stopped where the child was stopped, and whatever `work` raises.  Where
-    processes cannot be forked the work is done here.
-    """
-    if not hasattr(os, "fork"):
-        return work()
-    reading, writing = os.pipe()
-    child = os.fork()
-    if child == 0:
-        os.close(reading)
-        _run(work, writing, seconds)
-    os.close(writing)
-    with os.fdopen(reading, "rb") as pipe:
-        data = pipe.read()
-    _, status = os.waitpid(child, 0)
-    if status or not data:
-        raise Stopped
-    good, value = pickle.loads(data)  # noqa: S301  written by our own child
-    if not good:
-        raise value
-    result: _T = value
-    return result
-
-
-def _run(work: Callable[[], Any], writing: int, seconds: float) -> None:
-    """The child: limits, work, result, end."""
-    code = 1
-    try:
-        _limit(seconds)
-        try:
-            data = pickle.dumps((True, work()))
-        except MemoryError:
-            os._exit(1)
-        except Exception as error:  # noqa: BLE001  told to the parent, who raises it
-            error.add_note(traceback.format_exc())
-            data = pickle.dumps((False, error))
-        with os.fdopen(writing, "wb") as pipe:
-            pipe.write(data)
-        code = 0
-    finally:
-        os._exit(code)
-
-
-def _limit(seconds: float) -> None:
-    import resource
-
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    signal.setitimer(signal.ITIMER_PROF, seconds)  # of the processor, not of the clock
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    size = _size() + MEMORY
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    if hard == resource.RLIM_INFINITY or size < hard:
-        resource.setrlimit(resource.RLIMIT_AS, (size, hard))
-
-
-def _size() -> int:
-    """The address space of this process, in bytes; a guess where it cannot be seen."""
-    try:
-        with open("/proc/self/statm", "rb") as file:  # noqa: PTH123  a path object costs an import
-            return int(file.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
-    except (OSError, ValueError):
-        return MEMORY

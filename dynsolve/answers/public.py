@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from dynsolve.answers.judge import Checker, check_file
+from dynsolve.answers.judge import Checker
+from dynsolve.answers.limits import check_file
 from dynsolve.answers.verdict import Report
 from dynsolve.problem import Problem, load, read_problem
 

@@ -57,7 +57,8 @@ def check(
     Ends with 0 where every answer is correct, with 1 otherwise, with 2 where there
     is nothing to read.
     """
-    from dynsolve.answers.judge import Checker, check_file
+    from dynsolve.answers.judge import Checker
+    from dynsolve.answers.limits import check_file
 
     stated = read(problem)
     if not quiet:

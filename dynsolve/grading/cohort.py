@@ -30,8 +30,8 @@ from statistics import correlation, fmean
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from dynsolve.answers.judge import BY_PARTS
 from dynsolve.answers.marks import Marked, deduction, maximum, points
+from dynsolve.answers.unwritten import BY_PARTS
 from dynsolve.answers.verdict import PICTURE
 from dynsolve.grading.record import Key, Record, RecordedAnswer
 from dynsolve.grading.set_file import ProblemSet, stored_policy

@@ -90,7 +90,7 @@ def serve(lines: IO[bytes], out: IO[bytes], seconds: float) -> None:
 
 
 def _answered(payload: dict[str, Any], seconds: float) -> dict[str, Any]:
-    from dynsolve.answers.judge import Stopped
+    from dynsolve.answers.limits import Stopped
     from dynsolve.grading.work import checker_of, failure, grade_one
 
     try:

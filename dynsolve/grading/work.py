@@ -20,7 +20,8 @@ from typing import Any, TypeVar
 
 from msgspec.structs import replace
 
-from dynsolve.answers.judge import REMEDY, Checker, Judge, Stopped, limited
+from dynsolve.answers.judge import Checker, Judge
+from dynsolve.answers.limits import REMEDY, Stopped, limited
 from dynsolve.answers.marks import Marked, from_data, mark
 from dynsolve.answers.reading.answer_list import readable
 from dynsolve.answers.verdict import (

@@ -1,4 +1,4 @@
-"""The Newton-Euler recursions, in the links' frames."""
+"""The Newton-Euler recursions, in the links' frames; `recursions` has them in values, `terms` in letters."""
 
 from __future__ import annotations
 

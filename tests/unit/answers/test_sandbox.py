@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from dynsolve.answers import judge
+from dynsolve.answers import limits
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.verdict import Report, Submission
 from dynsolve.derivation.rules import derive
@@ -19,7 +19,7 @@ G2 = "m2*lc2*g*cos(q1 + q2)"
 
 
 def test_the_work_of_a_child_comes_back() -> None:
-    assert judge.limited(lambda: [1, "two"], 2) == [1, "two"]
+    assert limits.limited(lambda: [1, "two"], 2) == [1, "two"]
 
 
 def test_an_error_of_a_child_is_raised() -> None:
@@ -27,13 +27,13 @@ def test_an_error_of_a_child_is_raised() -> None:
         raise ValueError("of the child")
 
     with pytest.raises(ValueError, match="of the child") as raised:
-        judge.limited(fail, 2)
+        limits.limited(fail, 2)
     assert "in fail" in raised.value.__notes__[0]
 
 
 def test_memory_has_a_limit() -> None:
-    with pytest.raises(judge.Stopped):
-        judge.limited(lambda: bytearray(3 << 30), 2)
+    with pytest.raises(limits.Stopped):
+        limits.limited(lambda: bytearray(3 << 30), 2)
 
 
 def test_time_has_a_limit() -> None:
@@ -42,8 +42,8 @@ def test_time_has_a_limit() -> None:
             pass
 
     start = time.process_time()
-    with pytest.raises(judge.Stopped):
-        judge.limited(spin, 1)
+    with pytest.raises(limits.Stopped):
+        limits.limited(spin, 1)
     assert time.process_time() - start < 1
 
 
@@ -59,15 +59,15 @@ def test_the_answer_that_goes_over_is_unreadable_and_the_others_are_judged(
 
     monkeypatch.setattr(Checker, "__call__", heavy)
     hand = Submission("", "", "", (answer("P1", "0", 0), answer("g2", G2, 1)))
-    report = judge.check_within(checker("planar-2r"), hand)
+    report = limits.check_within(checker("planar-2r"), hand)
     found = {a.name: a for a in report.answers}
-    assert (found["P1"].verdict, found["P1"].fault) == ("unreadable", judge.TOO_MUCH)
+    assert (found["P1"].verdict, found["P1"].fault) == ("unreadable", limits.TOO_MUCH)
     assert found["g2"].verdict == "correct"
 
 
 def test_a_report_comes_back_as_it_was_made() -> None:
     hand = Submission("", "", "", (answer("g2", "0", 0), answer("K", "m1*q1_dot", 1)))
-    report = judge.check_within(checker("planar-2r"), hand)
+    report = limits.check_within(checker("planar-2r"), hand)
     direct = checker("planar-2r")(hand)
     assert report == direct
 
@@ -94,9 +94,9 @@ def test_what_the_key_costs_is_not_counted_on_an_answer(name: str, monkeypatch: 
         return rule.compute(*values)
 
     derived.rules[name] = replace(rule, compute=slowly)
-    monkeypatch.setattr(judge, "SECONDS", 0.25)
+    monkeypatch.setattr(limits, "SECONDS", 0.25)
     hand = Submission("", "", "", (answer("g1", "m*g*l*cos(q1)", 0),))
-    report = judge.check_within(Checker(problem, derived), hand)
+    report = limits.check_within(Checker(problem, derived), hand)
     assert {a.name: str(a.verdict) for a in report.answers} == {
         "g1": "correct",
         "D": "missing",
