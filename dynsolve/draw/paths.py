@@ -215,6 +215,10 @@ class _MarkedPrinter(UnicodePrinter):
         index = "" if node.sub is None else _DOWN + "".join(map(_leaf, walk(node.sub))) + _BACK
         return _BOLD + node.base + _SLANTED + index
 
+    def _applied(self, name: str, argument: str, exponent: str = "") -> str:
+        """A function of the textbook: its name upright."""
+        return _UPRIGHT + super()._applied(name + _SLANTED, argument, exponent)
+
 
 def _leaf(node: Node) -> str:
     """What stands in an index: numbers, words and names."""

@@ -226,7 +226,7 @@ def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: 
         source=spong("3.3"),
         concluding=("So:",) if lines else (),
         result=results,
-        figure=figure_of(formulas, step),
+        figure=figure_of(forms.robot, formulas, step),
         notes=tuple(_notes(forms, step, part.turn, before)),
         normal=NOTED if starts_anew or not lines else RESUMED,
         uses=("inverse_task", *(f"inverse_{s.coordinate}" for s in before if s.coordinate in shown)),

@@ -8,6 +8,7 @@ law of cosines          c² = a² + b² + 2 a b cos ψ, where squares were added
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 from math import cos, pi, sin
 
@@ -16,10 +17,11 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.document.figures import Figure, FigureAngle, FigureLine, LineKind, Place
 from dynsolve.notation.build import cost, negated, split_sign, total
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import ZERO, Function, Node, Symbol
+from dynsolve.notation.tree import ZERO, Function, Node, Symbol, names_in
 from dynsolve.questions.inverse.equations import Equation, Given, OfPoint, Squared, Turned
 from dynsolve.questions.inverse.forms import InverseFormulas
 from dynsolve.questions.inverse.subproblems import OneLine, Solved, TwoLines
+from dynsolve.robot.model import Convention, Robot
 
 MOST = 6
 """Formulas with more operations are not written on a line of a drawing."""
@@ -36,11 +38,11 @@ _BEND = 0.95
 _ORIGIN = (0.0, 0.0)
 
 
-def figure_of(formulas: InverseFormulas, step: Solved) -> Figure | None:
+def figure_of(robot: Robot, formulas: InverseFormulas, step: Solved) -> Figure | None:
     """The drawing of a step; None where it has none."""
     match step:
         case OneLine(equations=(Equation(origin=Squared()),)):
-            return _law_of_cosines(formulas, step)
+            return _law_of_cosines(robot, formulas, step)
         case OneLine(equations=(Equation(origin=Turned() as turned),)) if (
             turned.coordinate == step.coordinate
         ):
@@ -129,15 +131,16 @@ def _in_a_plane(
 # -- the law of cosines ----------------------------------------------------------------------------
 
 
-def _law_of_cosines(formulas: InverseFormulas, step: OneLine) -> Figure | None:
-    """The triangle with sides a and b, where c² = a² + b² + 2 a b cos(q - φ)."""
+def _law_of_cosines(robot: Robot, formulas: InverseFormulas, step: OneLine) -> Figure | None:
+    """The triangle with sides a and b, where c² = a² + b² + 2 a b cos(q - φ); q turns b."""
     (squared,) = step.equations
     sign = 1 if len(squared.left - step.value) <= len(squared.left + step.value) else -1
     constant = squared.left - step.value * sign
     sides = _sides(constant, step.cosine * step.cosine + step.sine * step.sine)
     if sides is None:
         return None
-    first, second = (_root(formulas, square) for square in sides)
+    roots = [_root(formulas, square) for square in sides]
+    first, second = _in_order(robot, roots, step.coordinate)
     apart = constant - sides[0] - sides[1]
     distance = Function("sqrt", formulas.form(squared.left - apart))
     bend = _bend(formulas, step, sign)
@@ -152,6 +155,23 @@ def _law_of_cosines(formulas: InverseFormulas, step: OneLine) -> Figure | None:
     caption = "Two lengths and the distance of their ends: the law of cosines; not to scale."
     angle = FigureAngle(elbow, _TURN, _TURN + _BEND, bend)
     return Figure(caption, lines, (angle,), (_ORIGIN, elbow, end))
+
+
+def _in_order(robot: Robot, sides: Sequence[Node], coordinate: str) -> list[Node]:
+    """The side before a joint, then the one that it turns, by the rows of the table that have their letters.
+
+    A letter of both sides tells nothing; a side without another stands where the joint does.
+    """
+    turned = {k for k, q in enumerate(robot.coordinates) if q.name == coordinate}
+    at = next((joint.index for joint in robot.joints if turned & {k for k, _ in joint.rates}), 0)
+    common = set.intersection(*map(names_in, sides))
+
+    def row(side: Node) -> float:
+        own = names_in(side) - common
+        rows = (joint.index for joint in robot.joints if own & names_in(*joint.written[1:3]))
+        return min(rows, default=at + (0.5 if robot.convention is Convention.MODIFIED else -0.5))
+
+    return sorted(sides, key=row)
 
 
 def _bend(formulas: InverseFormulas, step: OneLine, sign: int) -> Node:
