@@ -247,14 +247,16 @@ class _Independent:
         )
 
     def _candidates(self, additions: tuple[Addition, ...]) -> Iterator[Addition]:
-        """The addition theorems from angles of the first tree to those of the second, and back."""
+        """The addition theorems from angles of the first tree to those of both, and back from the second."""
         before, after = self.angles
         contracted = [(whole, *split) for whole in after for split in _splits(whole, before)]
         opened = [(whole, *split) for whole in before for split in _splits(whole, after)]
-        found = [(name, *each) for each in contracted for name in ("sin", "cos")]
-        back = [(name, *each) for each in opened if each not in contracted for name in ("sin", "cos")]
-        yield from dict.fromkeys((*additions, *(Addition(*each) for each in found)))
-        yield from (Addition(*each, opened=True) for each in back)
+        cancelled = [(whole, *split) for whole in before for split in _splits(whole, before)]
+        back = [each for each in opened if each not in contracted]
+        here = [each for each in cancelled if each not in (*contracted, *opened)]
+        found = [Addition(name, *each) for each in (*contracted, *here) for name in ("sin", "cos")]
+        yield from dict.fromkeys((*additions, *found))
+        yield from (Addition(name, *each, opened=True) for each in back for name in ("sin", "cos"))
 
     def _relation(self, candidate: Angle | Addition) -> fmpq_mpoly:
         """What is 0 by a candidate."""

@@ -128,8 +128,8 @@ def _eliminations(poly: TrigPolynomial, basis: list[Multiples]) -> Iterator[Trig
 
 
 def _with_one_combined(poly: TrigPolynomial, basis: list[Multiples]) -> Iterator[TrigForm]:
-    """Two terms of several as a product: s₁² s₁₂² + s₁ c₁ s₁₂ c₁₂ - 1 as s₁ s₁₂ c₂ - 1."""
-    for (e, f), (other, g) in combinations(poly.items(), 2) if 2 < len(poly) <= MOST_COMBINED else ():
+    """Two terms as a product: s₁² s₁₂² + s₁ c₁ s₁₂ c₁₂ - 1 as s₁ s₁₂ c₂ - 1."""
+    for (e, f), (other, g) in combinations(poly.items(), 2) if len(poly) <= MOST_COMBINED else ():
         if f not in (g, -g):
             continue
         shared = tuple(map(min, e, other))

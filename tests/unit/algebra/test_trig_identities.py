@@ -33,6 +33,8 @@ CASES = {
     # a sum is opened
     ("x*sin(a + b) - x*sin(b - a)", "2*x*sin(a)*cos(b)"): ["sin(a + b)", "sin(b - a)"],
     ("1 - cos(2*a)", "2*sin(a)^2"): ["sin² a", "cos(2*a)"],
+    # a sum becomes what another term takes away
+    ("x*sin(a)*cos(b - a) + x*cos(a)*sin(b - a) - x*sin(b) + y*cos(a)", "y*cos(a)"): ["sin(b)"],
     # of an angle that is none of the ring's
     ("(x*sin(b - a))^2 + (x*cos(b - a))^2", "x^2"): ["sin² b - a"],
     ("sin(a)^2*(sin(b)^2 + cos(b)^2) + cos(a)^2", "1"): ["sin² a", "sin² b"],

@@ -73,6 +73,7 @@ def compact(text: str) -> str:
             "sin(q1)^2*sin(q1 + q2)^2 + sin(q1)*cos(q1)*sin(q1 + q2)*cos(q1 + q2) - 1",
             "sin(q1)*sin(q1 + q2)*cos(q2) - 1",
         ),
+        ("m1*a*(sin(q1 + q3) - sin(q1 + 2*q2 + q3))", "-2*m1*a*sin(q2)*cos(q1 + q2 + q3)"),
         ("2*a*q1_dot*q2_dot + a*q2_dot^2", "a*(2*q1_dot*q2_dot + q2_dot**2)"),
         ("m1*a^2/3", "m1*a**2/3"),
         ("m1*b^2/2 + m2*a^2*cos(q1)^2/12", "m1*b**2/2 + m2*a**2*cos(q1)**2/12"),
