@@ -24,7 +24,6 @@ Everything a step is made from is in its `Context`: the robot, its exact values 
 
     given, placed_bodies, mass_centers, actions, matrix_factors, body_parts, terms
                          what several steps of the stages are made of
-    differentiation      derivatives term by term, and products of sums multiplied out
     working, sanity      the lines between a formula and its result; checks that a person can do on a model
     inequalities         what bounds parameters
     notation_list, signs, textbook_letters, parameter_meanings

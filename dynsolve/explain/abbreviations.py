@@ -31,7 +31,6 @@ from msgspec import Struct, field
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.euler_lagrange import christoffel_symbols
-from dynsolve.explain.differentiation import product_of
 from dynsolve.explain.entry_formulas import (
     collected_coriolis_force,
     coriolis_matrix,
@@ -42,6 +41,7 @@ from dynsolve.explain.forms import Forms
 from dynsolve.explain.recurring import Definition, exchanged, name_recurring, rewritten
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
+from dynsolve.notation.differentiation import product_of
 from dynsolve.notation.printing import flat_factors
 from dynsolve.notation.tree import (
     Function,

@@ -33,12 +33,12 @@ from dynsolve.explain.abbreviations import (
     symbols_put,
 )
 from dynsolve.explain.context import is_short
-from dynsolve.explain.differentiation import by_symbol, differentiated, product_of
 from dynsolve.explain.entry_formulas import coriolis_matrix
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.named_steps import introduced
 from dynsolve.explain.recurring import Definition, expanded
 from dynsolve.notation.build import cost, negated, split_sign, summands, times, total
+from dynsolve.notation.differentiation import by_symbol, differentiated, product_of
 from dynsolve.notation.printing import flat_factors
 from dynsolve.notation.tree import (
     ZERO,

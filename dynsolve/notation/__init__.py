@@ -1,7 +1,8 @@
 """Formulas as they are written: the tree, its readers and its printers.
 
 `tree`: the classes of nodes, visiting a tree and rebuilding it.  `build`: sums and products as they are
-written, and how many operations a formula has.
+written, and how many operations a formula has.  `differentiation`: derivatives term by term, and products
+of sums multiplied out.
 
 Read: `text` reads plain text and says what is wrong with it; `template` reads the formulas of the textbook
 that steps are written with; `characters` says what names are made of and how they are set.  `size` measures

@@ -15,7 +15,6 @@ from dynsolve.document import Prose
 from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.differentiation import product_of
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian import ZERO, column_letters, columns_shown, coordinate_column
 from dynsolve.explain.last_frame import halves
@@ -26,6 +25,7 @@ from dynsolve.explain.working.identities import new_angles
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, total
+from dynsolve.notation.differentiation import product_of
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Cross, Node, Parenthesized, Product, Sum, Transpose, equation
 from dynsolve.quantities import letters

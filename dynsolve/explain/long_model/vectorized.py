@@ -14,7 +14,6 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.abbreviations import Abbreviated, as_shown
 from dynsolve.explain.christoffel import SLOPES, in_slopes
 from dynsolve.explain.context import Context
-from dynsolve.explain.differentiation import by_symbol, differentiated
 from dynsolve.explain.entry_formulas import QUADRATIC, coriolis_matrix, depends_on, in_names_of_entries, pairs
 from dynsolve.explain.long_model.inertia_entry import worked_entry
 from dynsolve.explain.recurring import Definition, expanded, expanded_once, rewritten
@@ -26,6 +25,7 @@ from dynsolve.explain.working.identities import Way, new_angles
 from dynsolve.explain.writing import listed
 from dynsolve.notation import tree
 from dynsolve.notation.build import negated, split_sign, summands, times
+from dynsolve.notation.differentiation import by_symbol, differentiated
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ZERO,

@@ -23,13 +23,13 @@ from dynsolve.document import Prose
 from dynsolve.document.books import spong
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.differentiation import product_of
 from dynsolve.explain.inequalities import Inequalities
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.identities import Identity, are_alike, equals, identities, said
 from dynsolve.explain.working.squares import without_signs
 from dynsolve.explain.writing import listed
 from dynsolve.notation.build import cost, factors_of, negated, total
+from dynsolve.notation.differentiation import product_of
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Function,

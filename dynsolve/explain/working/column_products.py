@@ -19,7 +19,6 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.differentiation import is_trigonometric
 from dynsolve.explain.matrix_factors import factored, matrix_width
 from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
@@ -38,6 +37,7 @@ from dynsolve.explain.working.squares import along_axes, turn_of_frame, turned_n
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import factors_of, number_in_front, times, total
+from dynsolve.notation.differentiation import is_trigonometric
 from dynsolve.notation.tree import (
     ZERO,
     Entry,

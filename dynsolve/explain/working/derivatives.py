@@ -16,17 +16,6 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose, Reference
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.differentiation import (
-    Rule,
-    brackets,
-    by_rates,
-    by_symbol,
-    by_time,
-    differentiated,
-    has_rates,
-    multiplied_out,
-    sums_of_rates,
-)
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import (
     SILENT,
@@ -45,6 +34,17 @@ from dynsolve.explain.working.identities import (
 from dynsolve.explain.working.squares import products_of_rates, rates_named
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import times, total
+from dynsolve.notation.differentiation import (
+    Rule,
+    brackets,
+    by_rates,
+    by_symbol,
+    by_time,
+    differentiated,
+    has_rates,
+    multiplied_out,
+    sums_of_rates,
+)
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ZERO,

@@ -20,11 +20,11 @@ from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.context import Context
-from dynsolve.explain.differentiation import sums_of_rates
 from dynsolve.explain.matrix_factors import factored
 from dynsolve.explain.step import Line
 from dynsolve.explain.writing import is_small, listed, sum_of
 from dynsolve.notation.build import factors_of, negated
+from dynsolve.notation.differentiation import sums_of_rates
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     Function,

@@ -29,7 +29,6 @@ from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.differentiation import brackets, has_rates, is_trigonometric
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.identities import (
@@ -65,6 +64,7 @@ from dynsolve.notation.build import (
     times,
     total,
 )
+from dynsolve.notation.differentiation import brackets, has_rates, is_trigonometric
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ONE,

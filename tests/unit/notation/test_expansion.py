@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.explain.differentiation import by_rates, multiplied_out
+from dynsolve.notation.differentiation import by_rates, multiplied_out
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Symbol, mapped
 from dynsolve.notation.unicode import to_unicode
