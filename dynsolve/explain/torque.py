@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 
-from msgspec.structs import asdict
+from msgspec.structs import asdict, replace
 
 from dynsolve.document import Prose
 from dynsolve.document.books import spong
@@ -18,7 +18,7 @@ from dynsolve.explain.working.derivatives import cancelling, coordinate_derivati
 from dynsolve.explain.working.identities import Way, new_angles
 from dynsolve.explain.writing import listed, sum_of, turns
 from dynsolve.notation.template import formula
-from dynsolve.notation.tree import ZERO, Negative, Symbol, equation, number
+from dynsolve.notation.tree import ZERO, Negative, Node, Relation, Symbol, equation, number
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate, JointType
 
@@ -37,14 +37,21 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
     i, driven = q.index, say("{q}{driven}", q=Symbol(q.name), driven=_driven_by(context, q))
     why: Prose = ()
     asked = context.robot.questions
+    is_force = not context.is_in_letters and context.values[f"ddt{i}"] == context.values[f"tau{i}"]
+    is_force &= {"ddt", f"ddt{i}"}.isdisjoint(context.find)
+    way = momentum_rate(context, q)
+    identities = [part for part in way.concluding if isinstance(part, Relation)] if is_force else []
+    collected = _collected_with([*(_of_new_angles(context) if i == 1 else ()), *identities])
     if i == 1:
         why = say(
             "In $∂ℒ/∂q̇_i$ and $∂ℒ/∂q_i$ everything else is held fixed; in d/dt all that changes with time is "
             "differentiated (product and chain rule).{collected}{outside}{held}",
-            collected=_of_new_angles(context),
+            collected=say(" {these}", these=collected) if collected else (),
             outside=say(" $Q_i$, entry $i$ of $𝐐$, is what acts from outside.") if asked.loads else "",
             held=say(" $𝐀_cᵀ 𝛌$ is what the constraints do.") if asked.constraints else "",
         )
+    else:
+        why = collected
     passive = context.robot.actions.passive
     if i - 1 in passive or (passive and not turns(q)):
         why = say("{why}{gap}{driven}", why=why, gap=" " if why else "", driven=driven)
@@ -61,15 +68,17 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
         normal=STATED,
     )
     rate = letters.time_derivative(by_rate)
-    is_force = not context.is_in_letters and context.values[f"ddt{i}"] == context.values[f"tau{i}"]
-    is_force &= {"ddt", f"ddt{i}"}.isdisjoint(context.find)
-    end = ending(context, f"ddt{i}", {f"ddt{i}": (rate,)}, momentum_rate(context, q))
+    end = ending(context, f"ddt{i}", {f"ddt{i}": (rate,)}, way)
+    if is_force:  # the force has the same result: of a worked example the first line is enough
+        end = replace(
+            end, lines=(*end.lines[:1], *(replace(one, detail=Detail.FULL) for one in end.lines[1:]))
+        )
     yield step(
         id=f"ddt{i}",
         title=f"Coordinate {i}: time derivative of the momentum",
         why=(*_rate_why(context, q), *_change_of_inertia(context, q)),
         **asdict(end),
-        normal=STATED & ~Part.RESULT if is_force else STATED,  # the force has the same line
+        normal=Part.FORMULA | Part.LINES if is_force else STATED,
         hint=(
             "Differentiate the momentum with respect to time. Each rate in it becomes an acceleration, "
             "and each coordinate in it brings its own rate (product and chain rule).",
@@ -100,15 +109,19 @@ def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
     )
 
 
-def _of_new_angles(context: Context) -> Prose:
+def _of_new_angles(context: Context) -> list[Node]:
     """What sines and cosines stand for whose angles are met first in these results."""
     if context.is_in_letters:
-        return ()
+        return []
     stems = ("ddt", "dLdq", "tau")
     made = [context.result(f"{stem}{q.index}") for q in context.robot.coordinates for stem in stems]
     made += [one.meaning for one in context.names.sums] if context.names else []
-    new = new_angles(context.robot.ring, [context.form("L")], made)
-    return say(" The results are collected with {these}.", these=listed(new)) if new else ()
+    return list(new_angles(context.robot.ring, [context.form("L")], made))
+
+
+def _collected_with(identities: Sequence[Node]) -> Prose:
+    these = dict.fromkeys(identities)
+    return say("The results are collected with {these}.", these=listed([*these])) if these else ()
 
 
 def how_collected(context: Context) -> Prose:
