@@ -255,12 +255,14 @@ def acting_steps(context: Context) -> tuple[list[Step], list[Step]]:
 def potential_steps(context: Context) -> Iterator[Step]:
     """P_i of every body; what gravity is, and which way is up, is told where it is used first.
 
-    Those that stay at the height of the origin are told together, unless there are no others.
+    Those that stay at the height of the origin are told together, unless there are no others; so are all
+    where there is no gravity.
     """
+    is_weightless = context.robot.gravity.is_zero
     heavy = [body for body in context.robot.bodies if not body.mass.is_zero]
     along = _along(context)
     level = [body for body in heavy if along and context.values[f"rc{body.name}"][along[0], 0].is_zero]
-    level = level[level == heavy :]
+    level = list(context.robot.bodies) if is_weightless else level[level == heavy :]
     first = next((body for body in heavy if body not in level), None)
     for body in context.robot.bodies:
         if body not in level:
@@ -269,7 +271,9 @@ def potential_steps(context: Context) -> Iterator[Step]:
         yield Step(
             id=f"P{level[0].name}",
             title=f"Potential energy of {and_joined([name_of(body) for body in level])}",
-            why=say(
+            why=("There is no gravity.",)
+            if is_weightless
+            else say(
                 agreeing("{centers} stays|stay at the height of the origin.", len(level)),
                 centers=listed([letters.rc(body) for body in level]),
             ),
@@ -291,8 +295,6 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
         result=(equation(P, context.form(f"P{body.name}")),),
         normal=WORKED | Part.WHY,
     )
-    if context.robot.gravity.is_zero:
-        return replace(step, why=("There is no gravity.",), said="no gravity")
     if body.mass.is_zero:
         why = f"{opened(name_of(body))} has inertia but no mass, so gravity does not act on it."
         return replace(step, why=(why,))

@@ -16,7 +16,7 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.named_steps import ending_of_symbols, label_of
 from dynsolve.explain.step import NOTED, TOLD, Detail, Line, Step
-from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate, slopes, varying
+from dynsolve.explain.working.derivatives import Slope, coriolis_rows, inertia_rate, slopes, varying, weights
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.writing import counted_sum, is_small, listed
 from dynsolve.notation.build import split_sign, times, total
@@ -47,9 +47,6 @@ SLOPES = formula("(∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k)")
 CONSTANT = say("$𝐃$ is constant, so every Christoffel symbol is zero.")
 
 NO_CORIOLIS = formula("𝐂 = 𝟎")
-
-Slope = tuple[tuple[int, int], int]
-"""((a, b), c) of ∂d_ab/∂q_c, a ≤ b, from 0."""
 
 
 def christoffel_step(context: Context) -> Step:
@@ -118,9 +115,9 @@ def _symbol(context: Context, i: int, j: int, k: int) -> Node:
     names: list[Node] = [letters.entry("c", i + 1, j + 1, k + 1)]
     if i != j:
         names.append(letters.entry("c", j + 1, i + 1, k + 1))
-    weights = [weight for weight in _weights(context, i, j, k).values() if weight]
+    own = [weight for weight in weights(context, i, j, k).values() if weight]
     slopes = in_slopes(context, i, j, k)
-    if weights == [2]:  # two equal slopes, which their half is one of
+    if own == [2]:  # two equal slopes, which their half is one of
         names.append(Product((letters.HALF, Parenthesized(Sum((slopes, slopes))))))
     put_in, used = _put_in(context, i, j, k)
     return equation(*names, slopes, *[put_in] * bool(used), value)
@@ -131,9 +128,12 @@ def _put_in(context: Context, i: int, j: int, k: int) -> tuple[Node, Sequence[Id
     if not context.is_short:
         return ZERO, ()
     ring, D = context.robot.ring, context.values["D"]
-    weights = _weights(context, i, j, k).items()
     put_in = _halved(
-        [(weight, context.show(ring.diff(D[place], by))) for (place, by), weight in weights if weight]
+        [
+            (weight, context.show(ring.diff(D[place], by)))
+            for (place, by), weight in weights(context, i, j, k).items()
+            if weight
+        ]
     )
     return put_in, identities(ring, put_in, context.forms.christoffel(i, j, k)) or ()
 
@@ -142,7 +142,7 @@ def with_slopes(context: Context, slopes: Iterable[Slope]) -> tuple[str, ...]:
     """The equations of the symbols that say what derivatives of D are: of each alone, or else all with it."""
     nonzero, _ = _sorted_symbols(context)
     found: dict[str, None] = {}
-    made = [{key for key, weight in _weights(context, *ijk).items() if weight} for ijk in nonzero]
+    made = [{key for key, weight in weights(context, *ijk).items() if weight} for ijk in nonzero]
     for slope in slopes:
         places = [place for place, keys in enumerate(made, start=1) if slope in keys]
         alone = [place for place in places if len(made[place - 1]) == 1]
@@ -152,25 +152,13 @@ def with_slopes(context: Context, slopes: Iterable[Slope]) -> tuple[str, ...]:
 
 def in_slopes(context: Context, i: int, j: int, k: int) -> Node:
     """½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k) without those that are zero or cancel, of indices from 0."""
-    weights = _weights(context, i, j, k)
     names = context.robot.ring.names
     parts = [
         (weight, letters.partial_derivative(letters.entry("d", row + 1, col + 1), Symbol(names[by])))
-        for ((row, col), by), weight in weights.items()
+        for ((row, col), by), weight in weights(context, i, j, k).items()
         if weight
     ]
     return _halved(parts)
-
-
-def _weights(context: Context, i: int, j: int, k: int) -> dict[Slope, int]:
-    """How often each slope ∂d_ab/∂q_c that is not zero, a ≤ b, occurs in twice c_ijk; 0 where two cancel."""
-    ring, D = context.robot.ring, context.values["D"]
-    weights: dict[Slope, int] = {}
-    for (row, col), by, sign in (((k, j), i, 1), ((k, i), j, 1), ((i, j), k, -1)):
-        if not ring.diff(D[row, col], by).is_zero:
-            key = ((min(row, col), max(row, col)), by)
-            weights[key] = weights.get(key, 0) + sign
-    return weights
 
 
 def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
@@ -185,13 +173,13 @@ def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
 
 def _cancelling(context: Context, zero: Sequence[tuple[int, int, int]]) -> Prose:
     """The symbols in which derivatives that are not zero cancel."""
-    weights = {ijk: found for ijk in zero if (found := _weights(context, *ijk))}
-    if not 0 < len(weights) <= MOST_ZEROS:
+    made = {ijk: found for ijk in zero if (found := weights(context, *ijk))}
+    if not 0 < len(made) <= MOST_ZEROS:
         return ()
-    by_symmetry = not any(weight for found in weights.values() for weight in found.values())
+    by_symmetry = not any(weight for found in made.values() for weight in found.values())
     return say(
         " In {names} the others cancel{why}.",
-        names=_names(list(weights)),
+        names=_names(list(made)),
         why=say(", $𝐃$ being symmetric") if by_symmetry else "",
     )
 
@@ -200,7 +188,7 @@ def _zero_note(context: Context, zero: Sequence[tuple[int, int, int]]) -> Iterat
     if len(zero) > MOST_ZEROS:
         yield ("All the others are zero.",)
         return
-    vanishing = [ijk for ijk in zero if not _weights(context, *ijk)]
+    vanishing = [ijk for ijk in zero if not weights(context, *ijk)]
     if vanishing:
         text = "{names} are zero." if len(vanishing) > 1 else "{names} is zero."
         yield say(text, names=_names(vanishing))

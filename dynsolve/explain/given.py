@@ -322,7 +322,7 @@ def _body(forms: Forms, body: Body) -> Prose:
     elif shape is not None and shape.formulas:
         what = (f" a uniform {SHAPES[shape.kind]}", *_sized(forms, body, shape), ", its ", *center)
     else:
-        what = (" ", *_mass(forms, body), ", its ", *center)
+        what = (" ", *_mass(forms, body), *(() if body.mass.is_zero else (", its ", *center)))
     axes = () if body.is_point and density is None else _own_axes(forms, body)
     return (f"{name_of(body)} in link {body.link},", *what, *axes)
 
@@ -432,6 +432,17 @@ def _tensors(forms: Forms) -> Prose:
     for body in (body for body in given if body not in plain):
         point: Inline = letters.o(body.link if body.about == "origin" else ends(forms.robot, body)[0])
         assert body.inertia is not None
+        if is_diagonal(body.inertia) and len(own := _nonzero(body)) == 1:
+            ((axis, value),) = own
+            told += say(
+                "The moment of inertia of {body} about the axis through {point} parallel to {axis} is "
+                "{value}. ",
+                body=name_of(body),
+                point=point,
+                axis=_axis(forms, body, axis),
+                value=measured(forms.of(value), "kg m^2"),
+            )
+            continue
         told += say(
             "The inertia tensor of {body} about {point} along {axes}{rest} is {tensor}. ",
             body=name_of(body),
@@ -544,6 +555,8 @@ def _gravity(forms: Forms) -> Prose:
         told += (f" along the axes of {ground}",)
     if robot.actions.resisting:
         return (*told, ".")
+    if robot.questions.constraints or not robot.has_table:  # what rolls does so by friction
+        return (*told, "; " if along else ", and ", "no friction is given.")
     return (*told, "; there is no friction." if along else " and no friction.")
 
 

@@ -290,11 +290,12 @@ def _whole(context: Context) -> Step:
         title=f"The Jacobian of {context.end}",
         why=say(
             "The columns side by side. ${Jv} 𝐪̇$ is the velocity of {end}, $𝐉_ω 𝐪̇$ the angular velocity of "
-            "frame {last}{of_tree}.{still}",
+            "frame {last}{of_tree}.{shared}{still}",
             Jv=letters.JV,
             of_tree=", the end that the last row leads to" if context.robot.is_tree else "",
             end=context.end,
             last=last,
+            shared=_shared(context),
             still=_still(context),
         ),
         formula=equation(*in_letters),
@@ -332,6 +333,18 @@ def columns_shown(names: Sequence[tuple[Node, Node] | None], J: Matrix) -> Itera
     for value, equal in groupby(named, itemgetter(0)):
         is_zero = all(row == (Number(0),) for row in value.rows)
         yield equation(*(name for _, name in equal), ZERO if is_zero else value)
+
+
+def _shared(context: Context) -> Prose:
+    """What the columns of coordinates are that move several joints, or one at another rate."""
+    last = len(context.robot.joints)
+    moved = [joints_moved(context, k, last) for k in range(context.robot.n)]
+    if all(rate == 1 for one in moved for rate, _ in one) and all(len(one) < 2 for one in moved):
+        return ()
+    return say(
+        " Where a coordinate moves several joints, its column is the sum of theirs, each times the rate at "
+        "which that joint moves with it."
+    )
 
 
 def _still(context: Context) -> Prose:

@@ -1208,6 +1208,8 @@ def _independent(m: Mechanism, s: Sentence) -> bool:
 
 
 GENERAL = """
+Where a coordinate moves several joints, its column is the sum of theirs, each times the rate
+  at which that joint moves with it.
 Each {} leads one frame further along the arm, so it multiplies from the right.
 Let all parameters be positive[, and the tensors those of bodies][, and {&}].
 {} is symmetric, and may depend on the coordinates, but on no rate.

@@ -186,7 +186,7 @@ SLOPES = "slopes-of-D"
 
 
 def slopes(context: Context) -> Way:
-    """The slopes ∂d_ij/∂q_k that are not zero, where one of them asks for more than a look."""
+    """The slopes ∂d_ij/∂q_k that are not zero, where one is more than a look, or two meet in a c_ijk."""
     if not context.is_short:
         return SILENT
     ring, D, forms = context.robot.ring, context.values["D"], context.matrix("D").rows
@@ -199,7 +199,13 @@ def slopes(context: Context) -> Way:
         ways = (_slope(i, j, q), slope.tree, slope.expanded, slope.form, *named)
         shown.append(equation(*dict.fromkeys(ways)))
         found.append(slope)
-    if not any(each.by_product_rule or each.used for each in found):
+    indices = (
+        (i, j, k)
+        for i, j in combinations_with_replacement(range(context.robot.n), 2)
+        for k in range(context.robot.n)
+    )
+    meet = any(sum(map(bool, weights(context, *ijk).values())) > 1 for ijk in indices)
+    if not meet and not any(each.by_product_rule or each.used for each in found):
         return SILENT
     used = dict.fromkeys(identity for each in found for identity in each.used)
     words = say(
@@ -209,6 +215,21 @@ def slopes(context: Context) -> Way:
         used=say(" with {used}", used=said(list(used))) if used else "",
     )
     return Way((Line(words, tuple(shown), label=SLOPES),), ("Put into the formula:",))
+
+
+Slope = tuple[tuple[int, int], int]
+"""((a, b), c) of ∂d_ab/∂q_c, a ≤ b, from 0."""
+
+
+def weights(context: Context, i: int, j: int, k: int) -> dict[Slope, int]:
+    """How often each slope ∂d_ab/∂q_c that is not zero, a ≤ b, occurs in twice c_ijk; 0 where two cancel."""
+    ring, D = context.robot.ring, context.values["D"]
+    weights: dict[Slope, int] = {}
+    for (row, col), variable, sign in (((k, j), i, 1), ((k, i), j, 1), ((i, j), k, -1)):
+        if not ring.diff(D[row, col], variable).is_zero:
+            key = ((min(row, col), max(row, col)), variable)
+            weights[key] = weights.get(key, 0) + sign
+    return weights
 
 
 def _slope(i: int, j: int, q: Coordinate) -> Node:

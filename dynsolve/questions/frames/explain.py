@@ -126,31 +126,35 @@ def _drawn_axes(context: Context, normals: Normals) -> Step:
         title="The joint axes",
         why=say(
             "The joint axes in the pose that is drawn, in world coordinates; the hand is at {hand}. $𝐳$ lies "
-            "along each joint axis in the direction that is given.",
+            "along each joint axis in the direction that is given.{places}",
             hand=in_a_row(drawing.hand.at),
+            places=_open_places(drawing),
         ),
         source=context.by_convention("3.2", "3.4"),
-        notes=tuple(_notes(drawing)),
+        notes=(_OF_LETTERS,) if drawing.ring.parameters else (),
         table=Table(("joint", "", "", "direction", "through"), tuple(rows)),
         detail=Detail.BRIEF,
         is_task=False,
     )
 
 
-def _notes(drawing: Drawing) -> Iterator[Prose]:
-    open_places = [str(i) for i, axis in enumerate(drawing.axes, 1) if not axis.is_placed]
-    if open_places:
-        yield say(
-            "{axes} {joints} may be anywhere along the direction, for a slide has no place. The line is "
-            "taken with which fewest lengths of the table differ from 0.",
-            axes="The axes of joints" if len(open_places) > 1 else "The axis of joint",
-            joints=listed(open_places),
-        )
-    if drawing.ring.parameters:
-        yield (
-            "Letters are positive and independent of each other: what vanishes for some of their values "
-            "alone does not count as 0.",
-        )
+_OF_LETTERS = (
+    "Letters are positive and independent of each other: what vanishes for some of their values alone does "
+    "not count as 0.",
+)
+
+
+def _open_places(drawing: Drawing) -> Prose:
+    """Where the axes of slides are laid that have no place."""
+    joints = [str(i) for i, axis in enumerate(drawing.axes, 1) if not axis.is_placed]
+    if not joints:
+        return ()
+    return say(
+        " {axes} {joints} may be anywhere along the direction, for a slide has no place. The line is taken "
+        "with which fewest lengths of the table differ from 0.",
+        axes="The axes of joints" if len(joints) > 1 else "The axis of joint",
+        joints=listed(joints),
+    )
 
 
 def _drawn_frame(context: Context, normals: Normals, i: int) -> Step:
