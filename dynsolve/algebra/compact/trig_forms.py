@@ -370,6 +370,9 @@ _KNOWN: dict[Fraction, tuple[TrigMonomial, Fraction]] = {
 }
 """Cosines that are written without an angle."""
 
+_Known = tuple[tuple[TrigMonomial, Fraction], tuple[Fraction, ...]]
+"""What is written, with its number, and its vector."""
+
 
 class ConstantForms:
     """Writes polynomials {(k,): factor} in powers of cos δ, by sines and cosines of `written` angles.
@@ -388,15 +391,24 @@ class ConstantForms:
         self._relation = fmpq_poly(halves)(fmpq_poly([0, 2]))
         self._degree = int(halves.degree())
         self._cosines = [(self._name(j), self._vector(self._chebyshev(j))) for j in range(int(90 / delta))]
+        self._squares = list(self._of_squares())
 
     def __call__(self, poly: TrigPolynomial) -> list[TrigForm]:
-        """The shortest form: one cosine, two, or the sum over all powers."""
+        """The shortest form: one cosine, a square of a written one, two, or the sum over all powers."""
         vector = self._vector(fmpq_poly(self._dense(poly)))
-        for count in (1, 2):
-            found = next(self._combinations(vector, count), None)
+        for among, count in ((self._cosines, 1), (self._squares, 1), (self._cosines, 2)):
+            found = next(self._combinations(vector, among, count), None)
             if found is not None:
                 return [found]
         return [self._fourier(poly)]
+
+    def _of_squares(self) -> Iterator[_Known]:
+        """sin² and cos² of the written angles: sin² 20° and not (1 - cos 40°)/2."""
+        for angle in sorted(self.written):
+            for j in (angle / self.delta, (90 - angle) / self.delta):
+                mono, _ = self._name(int(j))
+                if mono and mono[0][0][0] != "sqrt":
+                    yield (((mono[0][0], 2),), Fraction(1)), self._vector(self._chebyshev(int(j)) ** 2)
 
     def _dense(self, poly: TrigPolynomial) -> list[fmpq]:
         dense = [fmpq(0)] * (max(k for (k,) in poly) + 1)
@@ -425,8 +437,10 @@ class ConstantForms:
             return ((("sin", (int(90 / self.delta) - j,)), 1),), Fraction(1)
         return ((("cos", (j,)), 1),), Fraction(1)
 
-    def _combinations(self, vector: tuple[Fraction, ...], count: int) -> Iterator[TrigForm]:
-        for chosen in combinations(self._cosines, count):
+    def _combinations(
+        self, vector: tuple[Fraction, ...], among: Sequence[_Known], count: int
+    ) -> Iterator[TrigForm]:
+        for chosen in combinations(among, count):
             factors = coordinates_in([v for _, v in chosen], vector)
             if factors is not None and all(factors):
                 yield {
