@@ -164,6 +164,12 @@ class Collector:
                 return size
         return None
 
+    def _twice_a_distance(self, poly: Polynomial) -> Rational | None:
+        """The number to draw out of 2d - l, of a coordinate and lengths, which is 2(d - l/2); else None."""
+        moving = [f if f > 0 else -f for mono, f in poly.items() if self._is_coordinate(mono)]
+        is_twice = moving == [2 * whole_content(poly.values())] and all(map(self._is_length, poly))
+        return moving[0] if is_twice else None
+
     def _is_legible(self, poly: Polynomial) -> bool:
         """Whether decimals of a sum are drawn out of it: 20x - 7 of a typed x - 0.35, and not 7x - 20."""
         return self._typed_in(poly) is not None or len({abs(f) for f in poly.values()}) == 1
@@ -184,10 +190,11 @@ class Collector:
 
     def primitive(self, poly: Polynomial) -> tuple[Rational, Monomial, Polynomial]:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
-        factor = self._typed_in(poly) or self.content(poly.values())
+        mono = self._worth_drawing(poly, common(poly))
+        twice = self._twice_a_distance(self._divided(poly, mono, 1))
+        factor = self._typed_in(poly) or twice or self.content(poly.values())
         if factor.denominator != 1 and (self._of_several_bodies(poly) or self._of_powers(poly)):
             factor = 1
-        mono = self._worth_drawing(poly, common(poly))
         if self.has_root(mono):
             factor = whole_content(poly.values())
         rest = self._divided(poly, mono, factor)
@@ -392,8 +399,11 @@ class Collector:
     ) -> tuple[Rational, Monomial]:
         """A number put into a sum of fractions, 4(a + b/3) as 4a + 4b/3; of masses (m₁ + 3 m₂)/3.
 
-        Twice a sum, as a derivative has it, stays twice that sum where fractions would stay in it too.
+        Twice a sum, as a derivative has it, stays twice that sum where fractions would stay in it too, and
+        a coordinate less a fraction is one distance everywhere: 2m (d - l/2).
         """
+        if self._is_from_a_coordinate(poly):
+            return factor, ()
         scaled = {mono: exact(f * factor, 1) for mono, f in poly.items()}
         shared = whole_content(scaled.values())
         if alone or not all(map(self._is_mass, poly)):
@@ -418,9 +428,18 @@ class Collector:
         return self.atoms.number(total([self.product(f * root, mono, ()) for f, mono in terms]))
 
     def _denominator(self, atom: int) -> int:
-        """2 of a sum x + y/2, of which 2 (x + y/2)² is ½ (2x + y)²; 0 of any without fractions."""
+        """2 of a sum x + y/2, of which 2 (x + y/2)² is ½ (2x + y)²; 0 of d - l/2, and without fractions."""
         terms = self._of_fractions(atom)
-        return lcm(*(f.denominator for f in terms.values())) if terms else 0
+        if not terms or self._is_from_a_coordinate(terms):
+            return 0
+        return lcm(*(f.denominator for f in terms.values()))
+
+    def _is_from_a_coordinate(self, poly: Polynomial) -> bool:
+        """Whether it is a coordinate and other terms: d - l/2."""
+        return any(f in (1, -1) and self._is_coordinate(mono) for mono, f in poly.items())
+
+    def _is_coordinate(self, mono: Monomial) -> bool:
+        return len(mono) == 1 and mono[0][1] == 1 and self.atoms.ranks[mono[0][0]][0] is Rank.COORDINATE
 
     def _is_mass(self, mono: Monomial) -> bool:
         return len(mono) == 1 and mono[0][1] == 1 and self.atoms.ranks[mono[0][0]][0] is Rank.LEADING

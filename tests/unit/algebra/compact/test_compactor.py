@@ -387,13 +387,35 @@ def test_what_is_one_sine_or_cosine_is_found(poly: TrigPolynomial, function: str
 @given(
     st.sampled_from([10, 5, 18, 9]),
     st.dictionaries(st.integers(0, 5), st.integers(-4, 4).filter(bool), min_size=1),
+    st.integers(1, 4),
 )
-def test_constant_forms_are_the_same_number(degrees: int, powers: dict[int, int]) -> None:
-    write = ConstantForms(Fraction(degrees))
+def test_constant_forms_are_the_same_number(degrees: int, powers: dict[int, int], times: int) -> None:
+    write = ConstantForms(Fraction(degrees), {Fraction(degrees * times)})
     delta = math.radians(degrees)
     number = sum(f * math.cos(delta) ** k for k, f in powers.items())
     for form in write({(k,): f for k, f in powers.items()}):
         assert value(form, delta) == pytest.approx(number, abs=1e-9)
+
+
+def test_the_square_of_a_sine_that_is_written_stays_one() -> None:
+    problem = read_problem(
+        "gravity: none\ndh: [{theta: q1*, alpha: 20deg}, {d: q2*}]\n"
+        "masses: [{mass: m, link: 2, center: tip, inertia: {xx: A, yy: B, zz: C}}]\n"
+    )
+    D = Forms(problem.robot, derive(problem.robot))("D")
+    assert isinstance(D, Matrix)
+    assert to_unicode(D.rows[0][0]) == "(m q₂² + B) sin²(20°) + C cos²(20°)"
+
+
+def test_a_coordinate_less_a_length_is_one_sum_in_d_the_energies_and_the_forces() -> None:
+    rod = "{mass: m, link: 2, center: [0, 0, -l/2], shape: {rod: {length: l, axis: z}}}"
+    slides = "gravity: none\ndh: [{theta: q1*, alpha: 90deg}, {d: q2*}]\n"
+    problem = read_problem(f"{slides}masses: [{rod}]\n")
+    forms = Forms(problem.robot, derive(problem.robot))
+    assert to_unicode(forms("tau1")) == "m ((q₂ - l/2)² + l²/12) q̈₁ + 2m (q₂ - l/2) q̇₁ q̇₂"
+    twice = 2 * problem.robot.ring.symbol("q2") - problem.robot.ring.symbol("l")
+    assert to_unicode(forms.of(twice)) == "2(q₂ - l/2)"
+    assert to_unicode(forms.of(twice * twice / 2)) == "2(q₂ - l/2)²"
 
 
 @pytest.mark.parametrize(
