@@ -11,10 +11,11 @@ from fractions import Fraction
 from msgspec import Struct
 from msgspec.structs import replace
 
+from dynsolve.algebra.compact.collect import product_of_sums
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.graph import Derivation
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, negated, split_sign, times, total
+from dynsolve.notation.build import cost, factors_of, negated, split_sign, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Letter, Node, Number, Product, Relation, Symbol
 from dynsolve.quantities import letters
@@ -139,10 +140,10 @@ def collected(terms: Iterable[tuple[Node, Node]]) -> Node:
 
 
 def _with_rates(symbol: Node, rates: Sequence[tuple[int, Node]]) -> Node:
-    """symbol · Σ ± rate, with a minus before it where all have one."""
+    """symbol · Σ ± rate, with a minus before it where all have one: 2h q̇₃ (q̇₁ + q̇₂), -h (q̇₁ + q̇₂)²."""
     front = max(sign for sign, _ in rates)
     inner = total([rate if sign == front else negated(rate) for sign, rate in rates])
-    return times(front, [(symbol, 1), (inner, 1)])
+    return times(front, [(symbol, 1), *((factor, 1) for factor in factors_of(product_of_sums(inner)))])
 
 
 # -- the formulas of a long model, in the names of the entries -------------------------------------

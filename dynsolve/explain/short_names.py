@@ -33,7 +33,7 @@ from dynsolve.explain.abbreviations import (
     symbols_put,
 )
 from dynsolve.explain.context import is_short
-from dynsolve.explain.entry_formulas import coriolis_matrix
+from dynsolve.explain.entry_formulas import collected, coriolis_matrix
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.named_steps import introduced
 from dynsolve.explain.recurring import Definition, expanded
@@ -116,14 +116,14 @@ def _with_slopes(forms: Forms, found: Sequence[Definition], names: Iterator[Symb
             if not (slope := ring.diff(value, k)).is_zero:
                 in_letters = letters.partial_derivative(one.name, by)
                 slopes.append((in_letters, by, differentiated(meaning, by_symbol(by)).tree, forms.of(slope)))
-    sums = (part for *_, collected in slopes for part in walk(collected) if isinstance(part, Sum))
+    sums = (part for *_, written in slopes for part in walk(written) if isinstance(part, Sum))
     long = (part for part in dict.fromkeys(sums) if cost(part) >= SHORTEST)
     definitions = (*found, *(Definition(name, part) for part, name in zip(long, names, strict=False)))
     named = InertiaNames(definitions, (), tuple(map(Exchange.of, definitions)))
     equal: dict[Node, list[Node]] = {}
     exchanges = list(named.exchanges)
-    for name, by, termwise, collected in slopes:
-        short, rate = named.put(collected), Symbol(by.name, 1)
+    for name, by, termwise, written in slopes:
+        short, rate = named.put(written), Symbol(by.name, 1)
         equal.setdefault(short, []).append(name)
         pairs = ((termwise, short), (_times(termwise, rate), _times(short, rate)))
         exchanges += [Exchange(written, form) for written, form in pairs if isinstance(written, Sum)]
@@ -263,7 +263,8 @@ def _by_products_of_rates(forms: Forms, symbols: Mapping[Expr, Node], node: Node
             whole[rates] = whole.get(rates, ring.zero) + factor
     named = {rates: form for rates, factor in whole.items() if (form := _multiple(symbols, factor, rates))}
     written: list[Node] = []
-    done: set[_Rates] = set()
+    done: dict[_Rates, tuple[Node, Node]] = {}
+    place = 0
     for term, factors in terms:
         met = [rates for rates in whole if rates in factors and rates in named]
         if not met:
@@ -271,11 +272,11 @@ def _by_products_of_rates(forms: Forms, symbols: Mapping[Expr, Node], node: Node
             continue
         taken = (factors[rates] * value_of(ring, times(1, rates)) for rates in met)
         rest = value_of(ring, term) - sum(taken, start=ring.zero)
-        written += (named[rates] for rates in met if rates not in done)
-        done.update(met)
+        place = place if done else len(written)
+        done |= {rates: named[rates] for rates in met}
         if not rest.is_zero:
             written += summands(forms.of(rest))
-    return total(written)
+    return total([*written[:place], collected(done.values()), *written[place:]])
 
 
 def _factors_of_rates(ring: Ring, term: Node) -> dict[_Rates, Expr]:
@@ -299,12 +300,13 @@ def _factors_of_rates(ring: Ring, term: Node) -> dict[_Rates, Expr]:
     }
 
 
-def _multiple(symbols: Mapping[Expr, Node], factor: Expr, rates: _Rates) -> Node | None:
-    """A factor times its rates, where it is a number times a symbol that has a name."""
+def _multiple(symbols: Mapping[Expr, Node], factor: Expr, rates: _Rates) -> tuple[Node, Node] | None:
+    """A symbol that has a name, with its sign, and a number times rates, where that is a factor with them."""
     for value, name in symbols.items():
         ratio = None if value.is_zero else factor.quotient(value)
         if ratio is not None and ratio.is_number and not ratio.is_zero:
-            return times(ratio.number, [(name, 1), *rates])
+            sign = 1 if ratio.number > 0 else -1
+            return times(sign, [(name, 1)]), times(sign * ratio.number, rates)
     return None
 
 

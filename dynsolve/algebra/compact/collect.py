@@ -674,6 +674,21 @@ class Collector:
         return total(terms)
 
 
+def product_of_sums(rates: Node) -> Node:
+    """A sum of products of rates as a product, where that is one; else as it is.
+
+    >>> from dynsolve.notation.unicode import to_unicode
+    >>> u, v, w = (Symbol(name, 1) for name in "uvw")
+    >>> to_unicode(product_of_sums(Sum((Product((Number(2), u, w)), Product((Number(2), v, w))))))
+    '2ẇ (u̇ + v̇)'
+    """
+    collector = Collector(AtomTable())
+    for symbol in dict.fromkeys(part for part in walk(rates) if isinstance(part, Symbol)):
+        collector.atoms.number(symbol, Rank.RATE)
+    found = collector.factored(collector.terms_of(rates))
+    return rates if isinstance(found, Sum) else found
+
+
 # The factor that all entries of a matrix share: (1/12) m l² in front of the tensor of a rod
 
 

@@ -15,6 +15,7 @@ from dynsolve.errors import ExplanationWarning
 from dynsolve.explain import vectorized
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
 from dynsolve.explain.context import Context
+from dynsolve.explain.entry_formulas import collected_coriolis_force
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.build import summands
 from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation, Row, Symbol, walk, with_children
@@ -55,6 +56,30 @@ def known(problem: str) -> dict[str, float]:
     for definition in named(problem).definitions:
         values[definition.name.name] = evaluate(definition.meaning, values)
     return values
+
+
+SLIDING = """
+title: a slider on two joints
+gravity: none
+dh: [{theta: q1*, a: %s}, {theta: q2* + 90deg, alpha: 90deg}, {d: q3*}]
+masses:
+  - {mass: m, link: 3, center: [0, 0, -l/2], shape: {rod: {length: l, axis: z}}}
+  - {mass: M, link: 1, center: tip}
+"""
+
+
+def test_rates_beside_a_name_are_a_product_where_they_are_one() -> None:
+    single = dynsolve.solve(SLIDING % 0).abbreviated("auto")
+    assert single is not None
+
+    def c(i: int, j: int, k: int) -> Node:
+        return single.christoffel[min(i, j), max(i, j), k]
+
+    forces = [to_unicode(collected_coriolis_force(("q1", "q2", "q3"), c, k)) for k in range(3)]
+    assert forces == ["2h q̇₃ (q̇₁ + q̇₂)", "2h q̇₃ (q̇₁ + q̇₂)", "-h (q̇₁ + q̇₂)²"]
+    several = dynsolve.solve(SLIDING % "a").abbreviated("auto")
+    assert several is not None
+    assert "2σ₂ q̇₃ (q̇₁ + q̇₂) - σ₁ (2q̇₁ q̇₂ + q̇₂²)" in to_unicode(several.forms["tau1"])
 
 
 def assert_same(ours: Any, theirs: Any) -> None:
