@@ -350,9 +350,7 @@ class Collector:
         if not self.decimal:
             for place, (atom, exponent) in enumerate(atoms):
                 if exponent == 1 and (poly := self._of_fractions(atom)):
-                    others = (self.atoms.ranks[other][0] for other, _ in atoms if other != atom)
-                    alone = all(rank >= Rank.RATE for rank in others)
-                    factor, whole = self._without_fractions(factor, poly, alone=alone)
+                    factor, whole = self._without_fractions(factor, poly)
                     atoms[place : place + 1] = whole or [(atom, 1)]
                     break
                 if exponent == 2 and (half := self._half_a_square(factor, atom)):
@@ -394,10 +392,8 @@ class Collector:
             self._fractions[atom] = found
         return found
 
-    def _without_fractions(
-        self, factor: Rational, poly: Polynomial, *, alone: bool
-    ) -> tuple[Rational, Monomial]:
-        """A number put into a sum of fractions, 4(a + b/3) as 4a + 4b/3; of masses (m₁ + 3 m₂)/3.
+    def _without_fractions(self, factor: Rational, poly: Polynomial) -> tuple[Rational, Monomial]:
+        """A number put into a sum of fractions, 4(a + b/3) as 4a + 4b/3; m₁/3 + m₂ stays what it is.
 
         Twice a sum, as a derivative has it, stays twice that sum where fractions would stay in it too, and
         a coordinate less a fraction is one distance everywhere: 2m (d - l/2).
@@ -406,11 +402,10 @@ class Collector:
             return factor, ()
         scaled = {mono: exact(f * factor, 1) for mono, f in poly.items()}
         shared = whole_content(scaled.values())
-        if alone or not all(map(self._is_mass, poly)):
-            if factor in (1, -1) or (factor in (2, -2) and shared.denominator != 1):
-                return factor, ()
-            if any(abs(Fraction(f) / shared) > SMALL_WHOLE for f in scaled.values()):
-                shared = 1
+        if factor in (1, -1) or (factor in (2, -2) and shared.denominator != 1):
+            return factor, ()
+        if any(abs(Fraction(f) / shared) > SMALL_WHOLE for f in scaled.values()):
+            shared = 1
         parts = [self.decompose(self.product(exact(f, shared), mono, ())) for mono, f in scaled.items()]
         # what is left in the terms may share a number again: (2M₁ b² + 2M₂ (3b² + c²))/6
         again = whole_content(f for f, _ in parts) if shared != 1 else 1

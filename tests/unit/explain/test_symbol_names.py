@@ -252,7 +252,7 @@ masses: [{mass: m, link: 2, center: tip}]
 
 @pytest.mark.parametrize(("problem", "symbols"), [
     ("planar-2r", ["-m₂ l₁ l_c2 s₂ =: h", "h", "-h"]),  # section 7.4
-    ("crustcrawler-2r", ["-L₂² (m₂ + 3m_p) s₂ c₂/3 =: h", "-h"]),
+    ("crustcrawler-2r", ["-L₂² (m₂/3 + m_p) s₂ c₂ =: h", "-h"]),
     ("five-bar", ["-σ₁ sin(q₂ - q₁) =: h", "-h"]),
     (WITH_AN_H, ["-m l² s₂ =: κ", "κ", "-κ"]),
 ])  # fmt: skip
