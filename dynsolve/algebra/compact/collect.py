@@ -214,7 +214,9 @@ class Collector:
         ranks = self.atoms.ranks
         above = {abs(f.numerator) for f in poly.values()}
         below = {f.denominator for f in poly.values()}
-        if len(below) == 1 or (len(above) == 1 and 1 not in below and all(map(rational_root, below))):
+        of_squares = all(any(e == 2 and ranks[a][0] is Rank.PARAMETER for a, e in mono) for mono in poly)
+        of_parts = len(above) == 1 and 1 not in below and all(map(rational_root, below))
+        if len(below) == 1 or (of_squares and of_parts):
             return False
         return len({tuple(a for a, _ in mono if ranks[a][0] is Rank.LEADING) for mono in poly}) > 1
 
@@ -519,6 +521,12 @@ class Collector:
     def _split(self, poly: Polynomial) -> Node:
         plain = self._arranged([self.product(f, m, ()) for m, f in self.ordered(poly)])
         best, least = plain, self.cost(plain)
+        alike = [part for part in self._of_moments(poly) if 2 < len(part) < len(poly)]
+        if alike:
+            rest = {m: f for m, f in poly.items() if not any(m in part for part in alike)}
+            node = self._arranged([self.form(part) for part in (*alike, rest) if part])
+            if self.cost(node) < least:
+                best, least = node, self.cost(node)
         for atom in self._worth_splitting(poly):
             node = self._split_by(poly, atom)
             # Books draw a mass out rather than a length, though it may cost one operation more.
@@ -528,6 +536,15 @@ class Collector:
         completed = self._completed(poly)
         # A book writes the distance, (d - l/2)² + l²/12, with either sign, at two operations more.
         return best if completed is None or self.cost(completed) - 2 > least else completed
+
+    def _of_moments(self, poly: Polynomial) -> Iterable[Polynomial]:
+        """The terms that are moments of inertia, by their fractions: (B + C + A s²)/2 beside m l²/8."""
+        found: dict[int, Polynomial] = {}
+        for mono, f in poly.items():
+            still = [power for power in mono if self.atoms.ranks[power[0]][0] < Rank.TRIG]
+            if f.denominator != 1 and self._is_mass(tuple(still)):
+                found.setdefault(f.denominator, {})[mono] = f
+        return found.values()
 
     def _completed(self, poly: Polynomial) -> Node | None:
         """a x² + b x y + c y² + ..., x being a coordinate, as a (x + b y / 2a)² + (c - b² / 4a) y² + ...

@@ -17,6 +17,7 @@ from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, evaluate, value_of
 from dynsolve.derivation.rules import derive
 from dynsolve.explain.forms import Forms
+from dynsolve.notation.printing import Style
 from dynsolve.notation.python import to_python
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Matrix, Symbol
@@ -405,6 +406,24 @@ def test_the_square_of_a_sine_that_is_written_stays_one() -> None:
     D = Forms(problem.robot, derive(problem.robot))("D")
     assert isinstance(D, Matrix)
     assert to_unicode(D.rows[0][0]) == "(m q₂² + B) sin²(20°) + C cos²(20°)"
+
+
+@pytest.mark.parametrize(
+    ("angle", "entry"),
+    [
+        ("45deg", "m l² (1 + c₂²)/8 + (B + C + C₂ + A₂ s₂² + B₂ c₂²)/2"),
+        ("30deg", "m l² (3 + c₂²)/16 + (B + 3C + 3C₂ + A₂ s₂² + B₂ c₂²)/4"),
+    ],
+)
+def test_moments_of_inertia_share_the_fraction_of_a_fixed_angle(angle: str, entry: str) -> None:
+    problem = read_problem(
+        f"gravity: none\ndh: [{{theta: q1*, alpha: {angle}}}, {{theta: q2*, a: l}}]\nmasses:\n"
+        "  - {mass: M, link: 1, center: origin, inertia: {xx: A, yy: B, zz: C}}\n"
+        "  - {mass: m, link: 2, center: midpoint, inertia: {xx: A2, yy: B2, zz: C2}}\n"
+    )
+    D = Forms(problem.robot, derive(problem.robot))("D")
+    assert isinstance(D, Matrix)
+    assert to_unicode(D.rows[0][0], Style(shorthand={"q2": "2"})) == entry
 
 
 def test_a_coordinate_less_a_length_is_one_sum_in_d_the_energies_and_the_forces() -> None:
