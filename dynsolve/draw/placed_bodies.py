@@ -18,12 +18,14 @@ from msgspec.structs import replace
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.mechanism import orientation
 from dynsolve.draw import paths
+from dynsolve.draw.closings import NOT_HELD
 from dynsolve.draw.labels import Label, Taken, place, written
 from dynsolve.draw.lengths import tilt
 from dynsolve.draw.paths import Path
 from dynsolve.draw.placed_pose import Kind, Piece, Place, PlacedPose, Turning, placed_pose
 from dynsolve.draw.poses import Notes, draw_spring, spiral, zigzag
 from dynsolve.draw.scene import PLAIN, Scene, framed, gravity_arrow, leads
+from dynsolve.draw.skeleton import finite
 from dynsolve.draw.solids import BODY, block, half_axes
 from dynsolve.draw.vectors import (
     IDENTITY,
@@ -49,6 +51,7 @@ from dynsolve.draw.vectors import (
 from dynsolve.notation.tree import Node, Number, Symbol
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
+from dynsolve.questions.constraints.derive import constraint_functions, holonomic
 from dynsolve.robot.model import Body, JointType
 
 CAPTION = "The bodies at some values of the coordinates; not to scale. Blue arrows are the axes of the world."
@@ -89,6 +92,8 @@ def placed_scene(problem: Problem, star: bool = True) -> Scene:
     for body in pose.robot.bodies:
         _name(body, pose, notes)
     said = _springs(pose, turning, notes)
+    kept = constraint_functions(pose.robot, {}).entries if holonomic(pose.robot) else ()
+    said += [NOT_HELD] * any(abs(finite(h, pose.values)) > NEAR for h in kept)
     for piece in sorted(pose.pieces, key=lambda piece: _size(piece, pose)):
         _length(piece, pose, notes)
     if pose.gravity is not None:

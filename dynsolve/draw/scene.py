@@ -18,6 +18,7 @@ from msgspec.structs import astuple
 from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.derivation.rules import derive
 from dynsolve.draw import paths, poses
+from dynsolve.draw.closings import NOT_HELD, Closings, closings
 from dynsolve.draw.forces import FORCES, MOMENTS, TURNING, drawn_forces, forces, is_turning
 from dynsolve.draw.joint_angles import has_rings, is_right, joint_angles, names_of_angles, offsets, parallels
 from dynsolve.draw.labels import Box, Label, Taken, bounds, place, written
@@ -171,8 +172,13 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     robot = problem.robot
     values = numbers(problem)
     world = orientation(robot, values, problem.normals is not None)
-    pose = allowed_pose(robot, values, world) or best_pose(robot, values, world, as_drawn(problem, values))
-    under, body = ground(pose.parts, pose.view), solids(pose.parts, pose.view, world.up, pose.bodies)
+    kept = allowed_pose(robot, values, world)
+    pose = kept or best_pose(robot, values, world, as_drawn(problem, values))
+    held = (
+        closings(robot, values, pose, world) if kept else Closings(said=(NOT_HELD,) * bool(holonomic(robot)))
+    )
+    under = (*held.under, *ground(pose.parts, pose.view))
+    body = (*solids(pose.parts, pose.view, world.up, pose.bodies), *held.body)
     notes = poses.Notes(_STAR if star else PLAIN, Taken())
     notes.taken.add([*under, *body])
     notes.solid.add(body)
@@ -185,20 +191,23 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     forces(robot, values, pose, notes)
     poses.masses(pose, notes)
     poses.axes_end_on(pose, notes)
+    for name, at in held.names:
+        notes.label(name, [pose.view.point(at)], (0.0, 0.0), paths.BLACK, "point", poses.MARK)
     thicknesses(robot, pose, notes)
-    dimensions([*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values)], pose, notes)
+    lengths = [*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values), *held.lengths]
+    dimensions(lengths, pose, notes)
     if world.gravity is not None:
         tilt(robot, world.gravity, pose.view, notes)
         gravity_arrow(robot, world.gravity, pose.view, [*under, *body], notes)
     labels = place(notes.wanted, notes.taken, notes.lengths)
-    paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
+    drawn = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
-        _caption(robot, values, pose, labels, body, frames),
+        " ".join((_caption(robot, values, pose, labels, body, frames), *held.said)),
         _description(problem),
-        paths,
+        drawn,
         labels,
-        framed(paths, labels),
+        framed(drawn, labels),
         notes.style,
     )
 

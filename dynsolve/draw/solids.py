@@ -355,8 +355,7 @@ def ground(parts: Parts, view: View) -> tuple[Path, ...]:
         level = cross(normal, view.toward)
         left = view.point(along(place, level, -view.space(_GROUND)))
         right = view.point(along(place, level, view.space(_GROUND)))
-        strokes = _hatches(left, right, view.direction(scale(normal, -1.0)))
-        return (*strokes, Path(paths.line(left, right), width=1.6))
+        return hatched(left, right, view.direction(scale(normal, -1.0)))
     first = parts.ground_side
     second = cross(normal, first)
     half = view.space(_PLATE)
@@ -374,6 +373,11 @@ def ground(parts: Parts, view: View) -> tuple[Path, ...]:
         a, b = corners[k], corners[(k + 1) % 4]
         hatches += _hatches(view.point(a), view.point(b), view.direction(scale(normal, -1.0)))
     return (*hatches, plate)
+
+
+def hatched(a: Point, b: Point, down: Point) -> tuple[Path, ...]:
+    """A line with short strokes on the side to which `down` points."""
+    return (*_hatches(a, b, down), Path(paths.line(a, b), width=1.6))
 
 
 def _hatches(a: Point, b: Point, down: Point) -> list[Path]:
