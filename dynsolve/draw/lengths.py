@@ -41,7 +41,7 @@ from dynsolve.draw.vectors import (
 )
 from dynsolve.notation.tree import Degrees, Node, Symbol, Words
 from dynsolve.quantities import letters
-from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.model import Convention, JointType, Robot
 
 _AWAY = (24.0, 36.0, 48.0, 62.0, 78.0, 94.0, 110.0, 128.0)
 """How far beside what it measures a line may run, in picture units."""
@@ -246,6 +246,7 @@ _WORLD_FRAME_HEAD = 6.0
 _PARTS = (0.5, 0.35, 0.65)
 """Where along that arc its name may stand."""
 
+TWISTS = "A black arc is an angle of the table between two axes, from a grey line parallel to the first."
 WORLD = "The frame of the world has the index w."
 
 
@@ -308,20 +309,21 @@ def _lean(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None
     size = math.atan2(dot(second, side), dot(second, first))
     if abs(math.sin(2 * size)) < NEAR:
         return
-    size_of = Degrees(abs(node.p), node.q) if isinstance(node, Degrees) else unsigned(node)
-    _arc_between(first, side, size, size_of, pose.view, notes)
+    angle_between(ORIGIN, first, side, size, node, pose.view, notes)
     if numbers.moved == ORIGIN:
         name = letters.bold("xyz"[turned], Words("w"))
         tip = pose.view.point(along(ORIGIN, first, pose.view.space(_LEAN + _BEYOND)))
         notes.label(name, [tip], pose.view.direction(first), paths.GREY, "axis")
 
 
-def _arc_between(first: Vector, side: Vector, size: float, node: Node, view: View, notes: Notes) -> None:
-    """An angle about the origin from a direction towards a side of it, with the lines between which it is."""
-    at = view.point(ORIGIN)
+def angle_between(
+    vertex: Vector, first: Vector, side: Vector, size: float, node: Node, view: View, notes: Notes
+) -> None:
+    """An angle from a direction towards a side of it, without its sign, with the lines that it is between."""
+    at = view.point(vertex)
     second = along(scale(first, math.cos(size)), side, math.sin(size))
     for direction in (first, second):
-        end = view.point(along(ORIGIN, direction, view.space(_LEAN + _BEYOND)))
+        end = view.point(along(vertex, direction, view.space(_LEAN + _BEYOND)))
         notes.draw(Path(paths.line(at, end), paths.GREY, 0.9), behind=True)
     p, q = scaled(view.direction(first), _LEAN), scaled(view.direction(side), _LEAN)
     arc = paths.arc(at, p, q, 0.0, size)
@@ -329,7 +331,29 @@ def _arc_between(first: Vector, side: Vector, size: float, node: Node, view: Vie
     head = paths.head(tip, from_to(before, tip), _WORLD_FRAME_HEAD)
     notes.draw(Path(arc, paths.WHITE, 3.6), Path(arc, paths.BLACK, 1.1), Path(head, None, fill=paths.BLACK))
     anchors = [paths.on_ellipse(at, p, q, size * part) for part in _PARTS]
-    notes.label(node, anchors, from_to(at, anchors[0]), paths.BLACK, "angle")
+    name = Degrees(abs(node.p), node.q) if isinstance(node, Degrees) else unsigned(node)
+    notes.label(name, anchors, from_to(at, anchors[0]), paths.BLACK, "angle")
+
+
+def twists(robot: Robot, pose: Pose) -> list[tuple[Vector, Vector, Vector, float, Node]]:
+    """The angles of a table that joints do not turn, but for right angles, as `angle_between` has them.
+
+    That is α between the z axes, and θ between the x axes of a row that is no revolute joint.
+    """
+    found = list[tuple[Vector, Vector, Vector, float, Node]]()
+    frames = pose.skeleton.frames
+    for joint, leg in zip(robot.joints, pose.skeleton.legs, strict=True):
+        about = leg.after if robot.convention is Convention.STANDARD else leg.before
+        before, after = frames[joint.parent], frames[joint.index]
+        pairs = [(before.z, after.z, about, joint.written[3])]
+        if joint.variable != "theta":
+            pairs.append((leg.before, leg.after, leg.axis, joint.written[0]))
+        for first, second, axis, node in pairs:
+            side = cross(axis, first)
+            size = math.atan2(dot(second, side), dot(second, first))
+            if abs(math.sin(2 * size)) > NEAR:
+                found.append((after.origin, first, side, size, node))
+    return found
 
 
 def tilt(robot: Robot, gravity: Vector, view: View, notes: Notes) -> None:
@@ -353,5 +377,5 @@ def tilt(robot: Robot, gravity: Vector, view: View, notes: Notes) -> None:
             axis, start = first, unit(subtract(first, scale(gravity, dot(first, gravity))))
         if axis == IDENTITY[2] or (view.flat and abs(dot(axis, view.toward)) < _ALONG):
             side = unit(subtract(axis, scale(start, dot(axis, start))))
-            _arc_between(start, side, math.acos(dot(axis, start)), node, view, notes)
+            angle_between(ORIGIN, start, side, math.acos(dot(axis, start)), node, view, notes)
         return

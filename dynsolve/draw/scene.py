@@ -22,7 +22,19 @@ from dynsolve.draw.closings import NOT_HELD, Closings, closings
 from dynsolve.draw.forces import FORCES, MOMENTS, TURNING, drawn_forces, forces, is_turning
 from dynsolve.draw.joint_angles import has_rings, is_right, joint_angles, names_of_angles, offsets, parallels
 from dynsolve.draw.labels import Box, Label, Taken, bounds, place, written
-from dynsolve.draw.lengths import WORLD, Length, dimensions, has_world, moves, row_lengths, tilt, world_frame
+from dynsolve.draw.lengths import (
+    TWISTS,
+    WORLD,
+    Length,
+    angle_between,
+    dimensions,
+    has_world,
+    moves,
+    row_lengths,
+    tilt,
+    twists,
+    world_frame,
+)
 from dynsolve.draw.mass_centers import DrawnBody, Form
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose_search import best_pose, dressed, held_pose
@@ -187,6 +199,8 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     if has_world(robot, values):
         under = (*world_frame(robot, values, pose, notes), *under)
     joint_angles(pose, names_of_angles(robot), notes)
+    for twist in twists(robot, pose):
+        angle_between(*twist, pose.view, notes)
     springs(robot, values, pose, notes)
     forces(robot, values, pose, notes)
     poses.masses(pose, notes)
@@ -238,6 +252,7 @@ def _caption(
         (_parallel(dashed), bool(dashed)),
         (OFFSETS, bool(offsets(pose))),
         (CORNERS, any(map(is_right, offsets(pose)))),
+        (TWISTS, bool(twists(robot, pose))),
         (RINGS, has_rings(pose)),
         (SHAPES, any(path.fill in astuple(BODY) for path in body)),
         (POINTS, any(mass.is_point for mass in pose.skeleton.masses)),

@@ -9,6 +9,7 @@ import pytest
 
 from dynsolve.draw.joint_angles import joint_angles, names_of_angles, offsets, parallels
 from dynsolve.draw.labels import Taken
+from dynsolve.draw.lengths import TWISTS, twists
 from dynsolve.draw.paths import GREY, VARIABLE, flattened
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.poses import Notes, Pose, reach_of_axis
@@ -163,3 +164,37 @@ def test_the_head_of_an_axis_is_beyond_the_arc_that_begins_on_it() -> None:
     on_axis = [p for p in starts if abs((p[0] - origin[0]) * y - (p[1] - origin[1]) * x) < 1e-6]
     (start,) = (math.dist(origin, point) for point in on_axis)
     assert start < reach_of_axis((x, y), pose) * math.hypot(x, y) - HEAD
+
+
+# -- the angles of a table that no joint turns -------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arm", "angles"),
+    [
+        ("dh: [{theta: q1*, d: d1, alpha: 45deg}, {theta: q2*, a: a2}]", ["45°"]),
+        ("dh: [{theta: q1*, d: d1, alpha: -45deg}, {theta: q2*, a: a2}]", ["45°"]),
+        ("dh: [{theta: q1*, d: d1, alpha: -gamma}, {theta: q2*, a: a2}]", ["γ"]),
+        ("dh: [{theta: 20deg, d: q1*, alpha: 90deg}, {theta: q2*, a: a2}]", ["20°"]),
+        ("convention: modified\ndh: [{theta: q1*}, {theta: q2*, a: a1, alpha: 30deg}]", ["30°"]),
+        ("dh: [{theta: q1*, d: d1, alpha: 90deg}, {theta: q2* + 45deg, a: a2, alpha: 180deg}]", []),
+    ],
+)
+def test_an_angle_of_the_table_that_no_joint_turns_is_marked(arm: str, angles: list[str]) -> None:
+    picture = scene(read_problem(f"{arm}\n".encode(), "twisted.yaml"))
+    shown_angles = [to_unicode(label.node) for label in picture.labels if label.kind == "angle"]
+    assert [name for name in shown_angles if name != "45°" or angles] == angles
+    assert (TWISTS in picture.caption) is bool(angles)
+
+
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+def test_a_twist_leads_from_one_z_axis_to_the_next(convention: str) -> None:
+    rows = "{theta: q1*, d: d1, a: a1, alpha: -50deg}, {theta: q2*, a: a2, alpha: 30deg}"
+    problem = read_problem(f"convention: {convention}\ndh: [{rows}]\n".encode(), "twisted.yaml")
+    pose, _ = shown(problem)
+    for row, (at, first, side, size, _) in enumerate(twists(problem.robot, pose), 1):
+        turned = add(scale(first, math.cos(size)), scale(side, math.sin(size)))
+        frames = pose.skeleton.frames
+        assert at == frames[row].origin and first == frames[row - 1].z
+        assert turned == pytest.approx(frames[row].z)
+        assert math.degrees(size) == pytest.approx((-50.0, 30.0)[row - 1])
