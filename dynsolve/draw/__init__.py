@@ -19,6 +19,7 @@ What is drawn of it:
                   front; drums, blocks and balls
     joint_angles  the angles of the joints, from the line from which each is measured
     forces        forces from outside, each at its point
+    drawn_points  the pose of a drawing that a table was found from, and the letters of its points
     closings      what constraints hold points to: walls, pivots, joints where ends meet
     lengths       lengths with their heads; the world where the base is moved in it or leans
     labels        where labels stand, and which places on paper are taken

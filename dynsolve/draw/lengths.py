@@ -237,6 +237,9 @@ def _from_ends(a: Point, b: Point, shift: Point) -> list[tuple[Point, Point]]:
 _LEAN, _BEYOND = 62.0, 12.0
 """The radius of the arc of the angle by which the base leans, and how far its lines reach beyond it."""
 
+_ASIDE = 36.0
+"""How long the axes of the world are where they stand aside."""
+
 _ALONG = 0.9
 """The cosine from which an axis is seen end on."""
 
@@ -248,6 +251,8 @@ _PARTS = (0.5, 0.35, 0.65)
 
 TWISTS = "A black arc is an angle of the table between two axes, from a grey line parallel to the first."
 WORLD = "The frame of the world has the index w."
+ASIDE = "It is drawn beside the arm, and begins at 𝐨₀."
+SAME = "Frame 0 is that of the world."
 
 
 def has_world(robot: Robot, numbers: RobotNumbers) -> bool:
@@ -255,6 +260,29 @@ def has_world(robot: Robot, numbers: RobotNumbers) -> bool:
     entries = [abs(entry) for column in numbers.base for entry in column]
     leans = any(NEAR < entry < 1.0 - NEAR for entry in entries)
     return leans or not robot.base_position.is_zero
+
+
+def is_aside(robot: Robot, numbers: RobotNumbers, drawn: bool) -> bool:
+    """Whether the directions of the world are to be shown, and no move or single turn of the base shows them.
+
+    Those of a robot that is `drawn` are, where frame 0 has others.
+    """
+    leans = has_world(robot, numbers) or (drawn and numbers.base != IDENTITY)
+    return leans and numbers.moved == ORIGIN and len(robot.base_turns) != 1
+
+
+def world_aside(at: Point, view: View, notes: Notes) -> None:
+    """The axes of the world at a place on paper."""
+    for letter, axis in zip("xyz", IDENTITY, strict=True):
+        x, y = view.direction(axis)
+        tip, reach = moved(at, (x, y), _ASIDE), math.hypot(x, y)
+        if reach < 1.0 - _ALONG:
+            seen_end_on(at, dot(axis, view.toward) > 0, notes)
+        else:
+            back = moved(tip, (x / reach, y / reach), -6.0)
+            notes.draw(*paths.arrow(at, back, tip, (x, y), paths.FRAME, 1.6))
+        radius = MARK if reach < 1.0 - _ALONG else 0.0
+        notes.label(letters.bold(letter, Words("w")), [tip], (x, y), paths.FRAME, "axis", radius)
 
 
 def world_frame(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> tuple[Path, ...]:

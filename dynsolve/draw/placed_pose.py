@@ -94,7 +94,7 @@ def _place(entries: Sequence[Expr]) -> Place:
 def _way(ring: Ring, center: Place, centers: Iterable[Place]) -> tuple[Piece, ...]:
     """The pieces to a centre in an order in which other centres lie on the way, and slides come first."""
     others = set(centers) - {center}
-    vectors = [part for group in _grouped(_terms(ring, center), _length) for part in _straight(ring, group)]
+    vectors = list(_vectors(ring, center))
     vectors.sort(key=lambda vector: _rank(ring, vector))
     orders = islice(permutations(vectors), _MOST_ORDERS)
     best = max(orders, key=lambda order: sum(point in others for point in _ways_points(ring, order)))
@@ -103,6 +103,18 @@ def _way(ring: Ring, center: Place, centers: Iterable[Place]) -> tuple[Piece, ..
         _piece(ring, start, end, vector)
         for start, end, vector in zip([(ring.zero,) * 3, *points], points, best, strict=False)
     )
+
+
+def _vectors(ring: Ring, place: Place) -> Iterator[Place]:
+    """The straight parts of a sum."""
+    for group in _grouped(_terms(ring, place), _length):
+        yield from _straight(ring, group)
+
+
+def straight_parts(ring: Ring, way: Place) -> Iterator[tuple[Expr | None, Place]]:
+    """The straight parts of a way with their lengths, None where one is no monomial times a number."""
+    for vector in _vectors(ring, way):
+        yield _piece(ring, vector, vector, vector).length, vector
 
 
 def _ways_points(ring: Ring, vectors: Iterable[Place]) -> list[Place]:

@@ -15,24 +15,28 @@ from fractions import Fraction
 from msgspec import Struct
 from msgspec.structs import astuple
 
-from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.derivation.rules import derive
 from dynsolve.draw import paths, poses
 from dynsolve.draw.closings import NOT_HELD, Closings, closings
+from dynsolve.draw.drawn_points import as_drawn, given_lengths, ways_beside
 from dynsolve.draw.forces import FORCES, MOMENTS, TURNING, drawn_forces, forces, is_turning
 from dynsolve.draw.joint_angles import has_rings, is_right, joint_angles, names_of_angles, offsets, parallels
 from dynsolve.draw.labels import Box, Label, Taken, bounds, place, written
 from dynsolve.draw.lengths import (
+    ASIDE,
+    SAME,
     TWISTS,
     WORLD,
     Length,
     angle_between,
     dimensions,
     has_world,
+    is_aside,
     moves,
     row_lengths,
     tilt,
     twists,
+    world_aside,
     world_frame,
 )
 from dynsolve.draw.mass_centers import DrawnBody, Form
@@ -42,6 +46,7 @@ from dynsolve.draw.poses import NO_DAMPERS, OTHER_SPRINGS, SPRINGS, Notes, Pose,
 from dynsolve.draw.skeleton import Orientation, RobotNumbers, numbers, orientation
 from dynsolve.draw.solids import BODY, ground, solids
 from dynsolve.draw.vectors import (
+    IDENTITY,
     NEAR,
     Point,
     Vector,
@@ -135,12 +140,12 @@ def _arrows(p: Point, q: Point, name: Node, notes: Notes) -> None:
     notes.label(name, ends, (0.0, 0.0), paths.BLACK, "length")
 
 
+_GRAVITY_ROOM, _WORLD_ROOM = Box(-26.0, -18.0, 36.0, 64.0), Box(-60.0, -60.0, 60.0, 60.0)
+"""The room around the beginning of the arrow of gravity, and around the axes of the world."""
+
 MARGIN = 14.0
 _FINEST = 10**6
 """The denominator up to which a number of the file is found from its value."""
-
-SLIDE = 0.9
-"""How far out a slide is drawn whose letter stands in a drawing."""
 
 CAPTION = "The manipulator with its frames; not to scale. 𝐱ᵢ and 𝐳ᵢ begin at the origin 𝐨ᵢ, and 𝐲ᵢ = 𝐳ᵢ × 𝐱ᵢ."
 WITHOUT_FRAMES = "The manipulator; not to scale."
@@ -208,8 +213,13 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     for name, at in held.names:
         notes.label(name, [pose.view.point(at)], (0.0, 0.0), paths.BLACK, "point", poses.MARK)
     thicknesses(robot, pose, notes)
-    lengths = [*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values), *held.lengths]
-    dimensions(lengths, pose, notes)
+    lengths = [*row_lengths(robot, pose), *moves(robot, values), *held.lengths]
+    given = given_lengths(problem, values, pose, [each.node for each in lengths])
+    notes.draw(*ways_beside(given, pose), behind=True)
+    lengths += given
+    dimensions([*lengths, *_center_lengths(pose)], pose, notes)
+    if is_aside(robot, values, problem.normals is not None):
+        world_aside(_free_place([*under, *body], notes, _WORLD_ROOM), pose.view, notes)
     if world.gravity is not None:
         tilt(robot, world.gravity, pose.view, notes)
         gravity_arrow(robot, world.gravity, pose.view, [*under, *body], notes)
@@ -217,7 +227,7 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     drawn = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
-        " ".join((_caption(robot, values, pose, labels, body, frames), *held.said)),
+        " ".join((_caption(problem, values, pose, labels, body, frames), *held.said)),
         _description(problem),
         drawn,
         labels,
@@ -235,7 +245,7 @@ def allowed_pose(robot: Robot, values: RobotNumbers, world: Orientation) -> Pose
 
 
 def _caption(
-    robot: Robot,
+    problem: Problem,
     values: RobotNumbers,
     pose: Pose,
     labels: Sequence[Label],
@@ -243,11 +253,15 @@ def _caption(
     frames: bool,
 ) -> str:
     """What stands under the picture, with what its lines are that are not always there."""
+    robot, is_drawn = problem.robot, problem.normals is not None
+    aside = is_aside(robot, values, is_drawn)
     dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
     turned_about = _BOLD[robot.base_turns[0][0]] if robot.base_turns else ""
     same_axis = f"{turned_about}₀, about which the base is turned, is that of the world, too."
     said = (
-        (WORLD, has_world(robot, values)),
+        (WORLD, has_world(robot, values) or aside),
+        (ASIDE, aside),
+        (SAME, is_drawn and values.base == IDENTITY and not has_world(robot, values)),
         (same_axis, has_world(robot, values) and len(robot.base_turns) == 1),
         (_parallel(dashed), bool(dashed)),
         (OFFSETS, bool(offsets(pose))),
@@ -289,21 +303,6 @@ def _parallel(found: Sequence[tuple[str, int] | None]) -> str:
     return f"The dashed grey {'line is' if len(found) == 1 else 'lines are'} parallel to {named}."
 
 
-def as_drawn(problem: Problem, values: RobotNumbers) -> list[float] | None:
-    """The pose of the drawing that a table was found from, in picture lengths; None of a table."""
-    if problem.normals is None:
-        return None
-    robot = problem.robot
-    others = dict.fromkeys(problem.normals.drawing.ring.parameters, values.unit)
-    slides = {q.name: SLIDE * values.unit for q in robot.coordinates if q.type is JointType.PRISMATIC}
-    try:
-        drawn = drawn_coordinates(problem.normals, {**others, **values.values, **slides})
-    except (ValueError, ZeroDivisionError):
-        return None
-    units = (values.unit if q.type is JointType.PRISMATIC else 1.0 for q in robot.coordinates)
-    return [drawn[q.name] / unit for q, unit in zip(robot.coordinates, units, strict=True)]
-
-
 def _center_lengths(pose: Pose) -> list[Length]:
     """The distances that lead to mass centres, each a number, one symbol, or a simple part of one."""
     found = []
@@ -326,9 +325,14 @@ def gravity_arrow(
     robot: Robot, gravity: Vector, view: View, body: Iterable[Path], notes: poses.Notes
 ) -> None:
     """The arrow of gravity, at the side where there is most room."""
-    box = bounds([*body, *notes.paths])
     end_on = view.flat and abs(dot(gravity, view.toward)) > 0.9
     direction = None if end_on else _unit(view.direction(gravity))
+    poses.gravity(robot, _free_place(body, notes, _GRAVITY_ROOM), direction, notes)
+
+
+def _free_place(body: Iterable[Path], notes: poses.Notes, room: Box) -> Point:
+    """Where the most of a `room` around a place is free, at the sides of what is drawn; else beside it."""
+    box = bounds([*body, *notes.paths])
     places = [
         (x, y)
         for y in (box.top + 14.0, box.top + 60.0, (box.top + box.bottom) / 2)
@@ -336,12 +340,11 @@ def gravity_arrow(
     ]
 
     def crowded(at: Point) -> int:
-        return notes.taken.inside(Box(at[0] - 26.0, at[1] - 18.0, at[0] + 36.0, at[1] + 64.0))
+        x, y = at
+        return notes.taken.inside(Box(x + room.left, y + room.top, x + room.right, y + room.bottom))
 
     best = min(places, key=crowded)
-    if crowded(best):
-        best = (box.right + 40.0, box.top + 30.0)
-    poses.gravity(robot, best, direction, notes)
+    return (box.right + 40.0, box.top + 30.0) if crowded(best) else best
 
 
 def _unit(a: Point) -> Point:

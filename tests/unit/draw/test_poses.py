@@ -6,13 +6,14 @@ import math
 
 import pytest
 
+from dynsolve.draw.drawn_points import as_drawn
 from dynsolve.draw.labels import Taken
 from dynsolve.draw.lengths import WORLD, has_world, moves, world_frame
 from dynsolve.draw.mass_centers import with_masses
 from dynsolve.draw.paths import BLACK, flattened
 from dynsolve.draw.pose_search import best_pose, closing_links, last_links
 from dynsolve.draw.poses import Notes, Pose
-from dynsolve.draw.scene import OFF_LINKS, allowed_pose, as_drawn, scene
+from dynsolve.draw.scene import OFF_LINKS, allowed_pose, scene
 from dynsolve.draw.skeleton import generic_numbers, numbers, orientation, skeleton
 from dynsolve.draw.vectors import ORIGIN, Vector, distance, dot, facing, subtract
 from dynsolve.notation.printing import Style
