@@ -20,7 +20,7 @@ from msgspec import Struct, field
 
 from dynsolve.algebra.ring import Expr
 from dynsolve.draw import paths
-from dynsolve.draw.labels import Taken, Wanted, written
+from dynsolve.draw.labels import Box, Taken, Wanted, written
 from dynsolve.draw.mass_centers import DrawnBody, symbols_of
 from dynsolve.draw.parts import RADIUS, TUBE, JointBody, Parts
 from dynsolve.draw.paths import Path, typeset
@@ -39,6 +39,7 @@ from dynsolve.draw.vectors import (
     moved,
     point_to_segment,
     scale,
+    scaled,
     segment_distance,
     subtract,
     toward,
@@ -423,9 +424,14 @@ def gravity(robot: Robot, place: Point, direction: Point | None, notes: Notes) -
 SPRINGS = "A spiral or a zigzag at a joint is a spring."
 OTHER_SPRINGS = "Springs on other than one joint, or given by their energy, are not drawn."
 NO_DAMPERS = "Dampers are not drawn."
+MOTORS = "A box beside a joint is a motor with a coordinate of its own."
+OTHER_MOTORS = "Motors without a coordinate of their own are not drawn."
 
 _INNER, _OUTER, _TURNS = RADIUS + 1.0, RADIUS + 13.0, 1.75
 _STEPS = 72
+_MOTOR, _CASE, _CORNERS = 46.0, 9.0, ((1, 1), (1, -1), (-1, -1), (-1, 1))
+"""Of a motor: how far from its joint it stands, half its side, and its corners."""
+
 _BESIDE, _HALF, _ENDS, _TOOTH, _LONGEST = 22.0, 6.0, 10.0, 6.0, 96.0
 """Of a zigzag: how far beside its joint it runs, half its width, its ends, half its period, all its teeth."""
 
@@ -434,10 +440,19 @@ def joint_springs(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple
     """The joints on whose coordinate alone a spring acts along, with its stiffness."""
     found = []
     for of, stiffness in (act.along for act in robot.actions.stored if act.along):
-        stretched = {k for k, q in enumerate(robot.coordinates) if _rate(of, q.name, numbers) > NEAR}
-        rows = [joint.index for joint in robot.joints if {k for k, _ in joint.rates} & stretched]
+        rows = _rows(robot, _stretched(robot, of, numbers))
         found += [(part, stiffness) for part in pose.parts.joints if rows == [part.row]]
     return found
+
+
+def _stretched(robot: Robot, of: Expr, numbers: RobotNumbers) -> set[int]:
+    """The coordinates, from 0, on which the form depends that a spring is given by."""
+    return {k for k, q in enumerate(robot.coordinates) if _rate(of, q.name, numbers) > NEAR}
+
+
+def _rows(robot: Robot, coordinates: set[int]) -> list[int]:
+    """The rows of the table that coordinates move."""
+    return [joint.index for joint in robot.joints if {k for k, _ in joint.rates} & coordinates]
 
 
 def _rate(of: Expr, coordinate: str, numbers: RobotNumbers) -> float:
@@ -454,6 +469,41 @@ def springs(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> No
         else:
             leg = pose.skeleton.legs[part.row - 1]
             draw_spring(zigzag(pose.view.point(leg.foot), pose.view.point(leg.head), _BESIDE), name, notes)
+
+
+def own_motors(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, int]]:
+    """The motors with a coordinate of their own, from 0, each at the joint that its spring acts on.
+
+    One without a spring stands at the joint after the link that carries it.
+    """
+    found = []
+    for rotor in robot.actions.rotors:
+        if _rows(robot, {rotor.turns}):
+            continue
+        forms = (_stretched(robot, act.along[0], numbers) for act in robot.actions.stored if act.along)
+        rows = [row for form in forms if rotor.turns in form for row in _rows(robot, form)]
+        at = (rows or [rotor.carrier + 1])[0]
+        found += [(part, rotor.turns) for part in pose.parts.joints if part.row == at]
+    return found
+
+
+def motors(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None:
+    """A box for every such motor, with its shaft towards the joint, and the letter of its coordinate."""
+    for part, turns in own_motors(robot, numbers, pose):
+        center = pose.view.point(part.center)
+        ways = [(math.cos(math.pi * k / 8), math.sin(math.pi * k / 8)) for k in range(16)]
+
+        def crowded(way: Point, center: Point = center) -> int:
+            return notes.taken.inside(Box.around(moved(center, way, _MOTOR), *(4 * _CASE,) * 2))
+
+        way = min(ways, key=crowded)
+        at, (x, y) = moved(center, way, _MOTOR), scaled(way, _CASE)
+        corners = [(at[0] + s * x - t * y, at[1] + s * y + t * x) for s, t in _CORNERS]
+        edge = _OUTER - 4.0 if pose.view.flat and part.type is JointType.REVOLUTE else RADIUS
+        shaft = paths.line(moved(center, way, edge), moved(at, way, -_CASE))
+        notes.draw(Path(shaft, paths.BLACK, 3.0), Path(paths.polygon(corners), fill=paths.DARK_SIDE))
+        name = Symbol(robot.coordinates[turns].name, star=True)
+        notes.label(name, [at], way, paths.VARIABLE, "variable", 1.2 * _CASE)
 
 
 def draw_spring(points: Iterator[Point], name: Node, notes: Notes, *, behind: bool = False) -> None:

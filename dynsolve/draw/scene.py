@@ -207,6 +207,7 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     for twist in twists(robot, pose):
         angle_between(*twist, pose.view, notes)
     springs(robot, values, pose, notes)
+    poses.motors(robot, values, pose, notes)
     forces(robot, values, pose, notes)
     poses.masses(pose, notes)
     poses.axes_end_on(pose, notes)
@@ -256,6 +257,7 @@ def _caption(
     robot, is_drawn = problem.robot, problem.normals is not None
     aside = is_aside(robot, values, is_drawn)
     dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
+    motors = poses.own_motors(robot, values, pose)
     turned_about = _BOLD[robot.base_turns[0][0]] if robot.base_turns else ""
     same_axis = f"{turned_about}₀, about which the base is turned, is that of the world, too."
     said = (
@@ -273,6 +275,8 @@ def _caption(
         (OFF_LINKS, poses.has_masses_off_links(pose)),
         (SPRINGS, bool(at_joints)),
         (OTHER_SPRINGS, len(at_joints) < len(robot.actions.stored)),
+        (poses.MOTORS, bool(motors)),
+        (poses.OTHER_MOTORS, len(motors) < len(robot.actions.rotors)),
         (NO_DAMPERS, any(act.along for act in robot.actions.resisting)),
         (FORCES, any(drawn_forces(robot, values, pose))),
         (MOMENTS, any(not load.moment.is_zero for load in robot.questions.loads)),

@@ -22,7 +22,7 @@ from dynsolve.draw.placed_bodies import (
 )
 from dynsolve.draw.placed_pose import Kind, Piece, Place, placed_pose, ways
 from dynsolve.draw.pose_search import best_pose
-from dynsolve.draw.poses import NO_DAMPERS, OTHER_SPRINGS, joint_springs
+from dynsolve.draw.poses import MOTORS, NO_DAMPERS, OTHER_MOTORS, OTHER_SPRINGS, joint_springs, own_motors
 from dynsolve.draw.poses import SPRINGS as SPRINGS_AT_JOINTS
 from dynsolve.draw.scene import scene
 from dynsolve.draw.skeleton import finite, numbers, orientation
@@ -264,6 +264,28 @@ def test_an_elastic_joint_has_a_spring_between_its_motor_and_its_link() -> None:
     """Its deflection is q₁ - q₂, of which only q₁ is an angle of the table."""
     picture = drawn(next(path for path in LIBRARY if path.stem == "elastic-joint"))
     assert names(picture, "spring") == ["k"]
+
+
+@pytest.mark.parametrize(
+    ("motors", "rows", "letters"),
+    [
+        ("motors: [{turns: m*, inertia: J}]\nsprings: [{stiffness: k, of: q2 - m}]", [2], ["m⋆"]),
+        ("motors: [{turns: m*, inertia: J, carrier: 2}]\nsprings: [{stiffness: k, of: q3 - m}]", [3], ["m⋆"]),
+        ("motors: [{turns: m*, inertia: J}]", [1], ["m⋆"]),
+        ("motors: [{turns: q2, inertia: J}]", [], []),
+    ],
+)
+def test_a_motor_with_a_coordinate_of_its_own_stands_at_its_joint(
+    motors: str, rows: list[int], letters: list[str]
+) -> None:
+    problem = read_problem(f"{ROWS}{motors}", "motor.yaml")
+    values = numbers(problem)
+    pose = best_pose(problem.robot, values, orientation(problem.robot, values))
+    assert [part.row for part, _ in own_motors(problem.robot, values, pose)] == rows
+    picture = scene(problem)
+    assert [name for name in names(picture, "variable") if name == "m⋆"] == letters
+    assert (MOTORS in picture.caption, OTHER_MOTORS in picture.caption) == (bool(rows), not rows)
+    assert overlapping(picture) == []
 
 
 def test_without_springs_nothing_is_said_of_them() -> None:

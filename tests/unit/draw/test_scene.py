@@ -134,8 +134,10 @@ def test_axes_joints_and_masses_are_named(path: Path) -> None:
     along_y = ["y₀"] if y and not (x or z) else []
     assert sorted(names(picture, "axis")) == sorted([*axes, *along_y])
     assert names(picture, "mass") == [f"r_c{body.name}" for body in robot.bodies]
-    assert sum("⋆" in name for name in names(picture, "variable")) == sum(
-        joint.type is not None for joint in robot.joints
+    moving = {k for joint in robot.joints for k, _ in joint.rates}
+    assert sum("⋆" in name for name in names(picture, "variable")) == (
+        sum(joint.type is not None for joint in robot.joints)
+        + sum(rotor.turns not in moving for rotor in robot.actions.rotors)
     )
     letter = "g₀" if "g0" in robot.parameters else "g"
     assert names(picture, "gravity") == ([] if robot.gravity.is_zero else [letter])
