@@ -155,7 +155,7 @@ def closings(robot: Robot, numbers: RobotNumbers, pose: Pose, world: Orientation
             said.append(WALLS if straight else CURVES)
         else:
             said.append(OTHERS)
-    return Closings(*map(tuple, (under, body, lengths, names, dict.fromkeys(said))))
+    return Closings(tuple(under), tuple(body), tuple(lengths), tuple(names), tuple(dict.fromkeys(said)))
 
 
 def _places(robot: Robot, numbers: RobotNumbers, pose: Pose) -> Iterator[tuple[str, Vector]]:

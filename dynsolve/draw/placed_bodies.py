@@ -13,15 +13,16 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.ring import Expr
 from dynsolve.derivation.mechanism import orientation
 from dynsolve.draw import paths
 from dynsolve.draw.closings import NOT_HELD
-from dynsolve.draw.labels import Label, Taken, place, written
+from dynsolve.draw.labels import Box, Label, Taken, place, written
 from dynsolve.draw.lengths import tilt
-from dynsolve.draw.paths import Path
+from dynsolve.draw.paths import Path, typeset
 from dynsolve.draw.placed_pose import Kind, Piece, Place, PlacedPose, Turning, placed_pose
 from dynsolve.draw.poses import Notes, draw_spring, spiral, zigzag
 from dynsolve.draw.scene import PLAIN, Scene, framed, gravity_arrow, leads
@@ -45,9 +46,11 @@ from dynsolve.draw.vectors import (
     moved,
     scale,
     scaled,
+    subtract,
     toward,
     unit,
 )
+from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Symbol
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
@@ -59,6 +62,7 @@ RODS = "A thick line joins points whose distance does not change."
 LINES = "A thin grey line is the way along which something slides."
 BOXES = "A box is a body that turns, or one that only slides."
 DISKS = "A disk is a body that turns as a length changes."
+WEDGES = "A triangle is a body that carries the slope on which another moves."
 ROLLING = "Where a disk touches a black line, it does not slide on it."
 BALLS = "A ball is a point mass."
 ZERO = "An angle is 0 at its dashed line."
@@ -69,6 +73,11 @@ _AXIS, _HALF, _BALL = 46.0, 12.0, 6.0
 _BEYOND = 34.0
 _OFFSETS = (26.0, 52.0, 78.0, 104.0, 130.0)
 _STEPS = 24
+_LEAST, _MOST, _PAST = 0.1, 0.99, 2.0
+"""Between which cosines directions are those of a slope and its base; how far a slope reaches, in radii."""
+
+_ROOMY = 30.0
+"""The radius of a disk on paper that has room for its letter."""
 
 
 def placed_scene(problem: Problem, star: bool = True) -> Scene:
@@ -79,18 +88,27 @@ def placed_scene(problem: Problem, star: bool = True) -> Scene:
     bodies = sorted(pose.robot.bodies, key=lambda body: pose.view.depth(_center(body, pose)))
     lines = [_way(piece, pose) for piece in pose.pieces if piece.kind is not Kind.ROD]
     rods = [_way(piece, pose) for piece in pose.pieces if piece.kind is Kind.ROD]
-    disks = [path for body in bodies if pose.rolls(body) for path in _body(body, pose)]
-    others = [path for body in bodies if not pose.rolls(body) for path in _body(body, pose)]
-    solid = (*disks, *rods, *others)
+    slopes = {wedge.carrier: wedge for wedge in wedges(pose)}
+    lines += [
+        Path(paths.line(pose.view.point(_center(body, pose)), wedge.corners[0]), paths.GREY, 1.0)
+        for body, wedge in slopes.items()
+    ]
+    under = [Path(paths.polygon(wedge.corners), fill=BODY.top) for wedge in slopes.values()]
+    carried = [wedge.carried for wedge in slopes.values()]
+    disks = [path for body in bodies if pose.rolls(body) for path in _body(body, pose, body in carried)]
+    others = [
+        path for body in bodies if not (pose.rolls(body) or body in slopes) for path in _body(body, pose)
+    ]
+    solid = (*under, *disks, *rods, *others)
     seen = (*lines, *solid)
-    notes.taken.add(seen)
-    notes.solid.add([*disks, *others])
+    notes.taken.add([*lines, *(replace(wedge, fill=None) for wedge in under), *disks, *rods, *others])
+    notes.solid.add([*under, *disks, *others])
     _world(pose, notes)
     turning = list(pose.turning(_STEPS))
     for turned in turning:
         _angle(turned, pose, notes)
     for body in pose.robot.bodies:
-        _name(body, pose, notes)
+        _name(body, pose, slopes.get(body), notes)
     said = _springs(pose, turning, notes)
     kept = constraint_functions(pose.robot, {}).entries if holonomic(pose.robot) else ()
     said += [NOT_HELD] * any(abs(finite(h, pose.values)) > NEAR for h in kept)
@@ -99,7 +117,7 @@ def placed_scene(problem: Problem, star: bool = True) -> Scene:
     if pose.gravity is not None:
         tilt(pose.robot, pose.gravity, pose.view, notes)
         gravity_arrow(pose.robot, pose.gravity, pose.view, seen, notes)
-    labels = place(notes.wanted, notes.taken, notes.lengths)
+    labels = (*place(notes.wanted, notes.taken, notes.lengths), *_radii(pose, notes.style))
     drawn = (*lines, *notes.behind, *solid, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Bodies",
@@ -114,12 +132,15 @@ def placed_scene(problem: Problem, star: bool = True) -> Scene:
 
 def _caption(pose: PlacedPose, labels: Sequence[Label]) -> str:
     """What stands under the picture, with what its lines are that are not always there."""
+    carriers = [wedge.carrier for wedge in wedges(pose)]
+    boxes = [body for body in pose.robot.bodies if body not in carriers]
     balls = [body for body in pose.robot.bodies if _axes(body, pose) is None]
     said = (
         (RODS, any(piece.kind is Kind.ROD for piece in pose.pieces)),
         (LINES, any(piece.kind is Kind.SLIDE for piece in pose.pieces)),
-        (BOXES, any(_axes(body, pose) and not pose.rolls(body) for body in pose.robot.bodies)),
+        (BOXES, any(_axes(body, pose) and not pose.rolls(body) for body in boxes)),
         (DISKS, any(pose.rolls(body) for body in pose.robot.bodies)),
+        (WEDGES, bool(carriers)),
         (ROLLING, any(pose.touches(body) for body in pose.robot.bodies)),
         (BALLS, bool(balls) and all(body.is_point for body in balls)),
         (ZERO, any(label.kind == "variable" for label in labels)),
@@ -180,7 +201,9 @@ def _length(piece: Piece, pose: PlacedPose, notes: Notes) -> None:
     def cost(offset: float) -> float:
         start, end = moved(a, across, offset), moved(b, across, offset)
         return (
-            40 * notes.taken.on_line(start, end) + 10 * notes.lengths.on_line(start, end) + abs(offset) / 20
+            40 * (notes.taken.on_line(start, end) + notes.solid.on_line(start, end))
+            + 10 * notes.lengths.on_line(start, end)
+            + abs(offset) / 20
         )
 
     offset = min((side * away for away in _OFFSETS for side in (1.0, -1.0)), key=cost)
@@ -204,8 +227,11 @@ def _center(body: Body, pose: PlacedPose) -> Vector:
     return pose.vector(body.center.entries)
 
 
-def _body(body: Body, pose: PlacedPose) -> Sequence[Path]:
-    """A disk that turns as it slides, a box that turns or slides along a line, or a ball."""
+def _body(body: Body, pose: PlacedPose, is_carried: bool = False) -> Sequence[Path]:
+    """A disk that turns as it slides, a box that turns or slides along a line, or a ball.
+
+    A disk that `is_carried` touches the slope of a wedge, and needs no line of its own.
+    """
     center, view = _center(body, pose), pose.view
     at = view.point(center)
     axes = _axes(body, pose)
@@ -213,7 +239,7 @@ def _body(body: Body, pose: PlacedPose) -> Sequence[Path]:
         return (Path(paths.circle(at, _BALL), paths.WHITE, 1.2, paths.BLACK),)
     rolls = pose.rolls(body)
     if rolls is not None:
-        return tuple(_disk(center, axes, *rolls, view, touches=pose.touches(body)))
+        return tuple(_disk(center, axes, *rolls, view, touches=pose.touches(body) and not is_carried))
     return block(center, axes, (_HALF,) * 3, view, view.up, BODY).paths
 
 
@@ -231,8 +257,65 @@ def _disk(
         yield Path(paths.line(*(view.point(along(ground, unit(speed), x)) for x in reach)), paths.BLACK, 2.0)
     rim = paths.ellipse(at, *half_axes(unit(spin), view, radius * view.size))
     yield Path(rim, fill=BODY.top)
-    spoke = min(axes, key=lambda axis: abs(dot(axis, spin)))
-    yield Path(paths.line(at, view.point(along(center, spoke, radius))), paths.BLACK, 1.4)
+    yield Path(paths.line(at, view.point(along(center, _spoke(axes, spin), radius))), paths.BLACK, 1.4)
+
+
+def _spoke(axes: Rotation, spin: Vector) -> Vector:
+    return min(axes, key=lambda axis: abs(dot(axis, spin)))
+
+
+def _radii(pose: PlacedPose, style: Style) -> Iterator[Label]:
+    """The letter of a disk's radius beside its spoke, where there is room in the disk."""
+    for body in pose.robot.bodies:
+        axes, rolls, name = _axes(body, pose), pose.rolls(body), pose.radius(body)
+        if axes is None or rolls is None or name is None or _radius(*rolls) * pose.view.size < _ROOMY:
+            continue
+        center = _center(body, pose)
+        a, b = (pose.view.point(along(center, _spoke(axes, rolls[0]), t * _radius(*rolls))) for t in (0, 1))
+        x, y = toward(a, b)
+        line = typeset(Symbol(name), style)
+        at = moved(_between(a, b, 0.55), (-y, x), 0.5 * (abs(y) * line.width + abs(x) * line.height) + 2.0)
+        yield Label(Symbol(name), line, Box.around(at, line.width, line.height), paths.BLACK, "length")
+
+
+class Wedge(Struct, frozen=True):
+    """A body that carries a slope, the body that moves on it, and the corners, the upper end first."""
+
+    carrier: Body
+    carried: Body
+    corners: tuple[Point, Point, Point]
+
+
+def wedges(pose: PlacedPose) -> Iterator[Wedge]:
+    """Each body that slides along a line, and from whose place another slides along a slope to that line."""
+    view, bodies = pose.view, pose.robot.bodies
+    for body, way in zip(bodies, pose.ways, strict=True):
+        carriers = [
+            (other, others[-1])
+            for other, others in zip(bodies, pose.ways, strict=True)
+            if others and way and others[-1].end == way[-1].start and not other.turns and _axes(other, pose)
+        ]
+        if not (view.flat and carriers and way[-1].kind is Kind.SLIDE) or way[-1].turns:
+            continue
+        carrier, slide = carriers[0]
+        slope, level = unit(pose.vector(way[-1].direction)), unit(pose.vector(slide.direction))
+        if not _LEAST < abs(dot(slope, level)) < _MOST:
+            continue
+        rolls = pose.rolls(body)
+        if rolls is not None and pose.touches(body):
+            to_line = scale(cross(*rolls), 1.0 / dot(rolls[0], rolls[0]))
+        elif not body.turns:
+            across = cross(view.toward, slope)
+            to_line = scale(across, math.copysign(view.space(_HALF), -dot(across, view.up)))
+        else:
+            continue
+        start, at = pose.vector(way[-1].start), add(_center(body, pose), to_line)
+        upper = along(add(start, to_line), slope, -dot(to_line, level) / dot(slope, level))
+        onward = math.copysign(_PAST * length(to_line), dot(subtract(at, upper), slope))
+        lower = along(at, slope, onward)
+        corner = along(lower, level, -dot(subtract(lower, upper), level))
+        first, second, third = (view.point(each) for each in (upper, lower, corner))
+        yield Wedge(carrier, body, (first, second, third))
 
 
 def _radius(spin: Vector, speed: Vector) -> float:
@@ -252,8 +335,8 @@ def _axes(body: Body, pose: PlacedPose) -> Rotation | None:
     return first, second, cross(first, second)
 
 
-def _name(body: Body, pose: PlacedPose, notes: Notes) -> None:
-    """The mass of a body, or what moment of inertia it has instead."""
+def _name(body: Body, pose: PlacedPose, wedge: Wedge | None, notes: Notes) -> None:
+    """The mass of a body, or what moment of inertia it has instead; the radius of a disk."""
     at = pose.view.point(_center(body, pose))
     form = written(pose.robot)
     node: Node
@@ -265,6 +348,9 @@ def _name(body: Body, pose: PlacedPose, notes: Notes) -> None:
     rolls = pose.rolls(body)
     radius = _BALL if _axes(body, pose) is None else _HALF
     radius = radius if rolls is None else pose.view.size * _radius(*rolls)
+    if wedge is not None:
+        (ax, ay), (bx, by), (cx, cy) = wedge.corners
+        at, radius = ((ax + bx + cx) / 3, (ay + by + cy) / 3), 0.0
     notes.label(node, [at], (0.0, 0.0), paths.BLACK, "mass", radius)
 
 

@@ -291,6 +291,17 @@ class PlacedPose(Struct, frozen=True):
             return None
         return self.vector(spins.column_at(k).entries), self.vector(moves.column_at(k).entries)
 
+    def radius(self, body: Body) -> str | None:
+        """The letter R of a disk for which v² = R² ω² as a length turns it; None where none is."""
+        ring = self.robot.ring
+        spins, moves, k = _rolling(self.robot, body)
+        if k is None:
+            return None
+        spin, speed = (
+            ring.dot(each.column_at(k).entries, each.column_at(k).entries) for each in (spins, moves)
+        )
+        return next((name for name in ring.parameters if speed == spin * ring.symbol(name) ** 2), None)
+
     def touches(self, body: Body) -> bool:
         """Whether a disk rolls on a line, on which it does not slide, whatever moves.
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
+from msgspec.structs import replace
+
 from dynsolve.draw.labels import Box, Label, Taken
 from dynsolve.draw.paths import WHITE, flattened, line
 from dynsolve.draw.scene import Scene, scene
+from dynsolve.draw.solids import BODY
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import load, read_problem
 
@@ -39,14 +42,18 @@ def overlapping(picture: Scene) -> list[tuple[str, str]]:
 
 
 def struck_through(picture: Scene) -> list[str]:
-    """Labels that have something drawn under or over their letters, but for their own line."""
+    """Labels that have something drawn under or over their letters, but for their own line.
+
+    A letter may stand in the tan area of a body, off its lines.
+    """
     return [to_unicode(label.node) for label in picture.labels if _hits(picture, label) > 1]
 
 
 def _hits(picture: Scene, label: Label) -> int:
     own = line(*label.lead) if label.lead else None
     taken = Taken()
-    taken.add(p for p in picture.paths if p.commands != own and (p.fill or p.stroke != WHITE))
+    drawn = (p for p in picture.paths if p.commands != own and (p.fill or p.stroke != WHITE))
+    taken.add(replace(p, fill=None) if p.fill == BODY.top else p for p in drawn)
     box = label.box
     return taken.inside(Box(box.left + 1, box.top + 2, box.right - 1, box.bottom - 2))
 

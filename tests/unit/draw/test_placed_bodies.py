@@ -26,7 +26,7 @@ from dynsolve.draw.poses import MOTORS, NO_DAMPERS, OTHER_MOTORS, OTHER_SPRINGS,
 from dynsolve.draw.poses import SPRINGS as SPRINGS_AT_JOINTS
 from dynsolve.draw.scene import scene
 from dynsolve.draw.skeleton import finite, numbers, orientation
-from dynsolve.draw.vectors import NEAR, cross, distance, dot, scale
+from dynsolve.draw.vectors import NEAR, cross, distance, dot, point_to_segment, scale
 from dynsolve.errors import UsageError
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.unicode import to_unicode
@@ -190,6 +190,41 @@ def test_a_disk_touches_its_line_where_it_is_at_rest() -> None:
     assert rolls is not None and {DISKS, ROLLING} <= said_of_disks(problem)
     to_rest = scale(cross(*rolls), 1.0 / dot(rolls[0], rolls[0]))
     assert to_rest == pytest.approx((0.0, -pose.values["r"], 0.0))
+
+
+@pytest.mark.parametrize(
+    ("second", "wide", "lengths"),
+    [
+        ("[X + s*cos(alpha), -s*sin(alpha), 0], turn: -s/R", None, ["R", "X⋆", "s⋆"]),
+        ("[X - s*cos(30deg), -s*sin(30deg), 0]", 12.0, ["X⋆", "s⋆"]),
+    ],
+)
+def test_a_wedge_reaches_up_to_what_moves_on_it(second: str, wide: float | None, lengths: list[str]) -> None:
+    """Its slope touches the disk or the block, and one of its edges is that along which it slides."""
+    text = (
+        "gravity: [0, -g, 0]\nmodel:\n  coordinates: {X: prismatic, s: prismatic}\n  bodies:\n"
+        f"    - {{mass: M, at: [X, 0, 0]}}\n    - {{mass: m, at: {second}}}\n"
+    )
+    problem = read_problem(text.encode(), "wedge.yaml")
+    pose, picture = placed_pose(problem), placed_scene(problem)
+    (wedge,) = placed_bodies.wedges(pose)
+    upper, lower, corner = wedge.corners
+    radius = wide or pose.values["R"] * pose.view.size
+    center = pose.point(wedge.carried.center.entries)
+    assert point_to_segment(center, upper, lower) == pytest.approx(radius)
+    assert center[1] < upper[1] + (lower[1] - upper[1]) * (center[0] - upper[0]) / (lower[0] - upper[0])
+    assert corner == pytest.approx((upper[0], lower[1]))
+    assert upper[0] == pytest.approx(pose.point(wedge.carrier.center.entries)[0])
+    assert sorted(names(picture, "length")) == lengths and names(picture, "mass") == ["M", "m"]
+    assert placed_bodies.WEDGES in picture.caption and overlapping(picture) == []
+
+
+@pytest.mark.parametrize("second", ["[X, -s, 0]", "[X + s, 0, 0]", "[X + l*sin(s), -l*cos(s), 0]"])
+def test_what_moves_across_or_along_or_turns_needs_no_wedge(second: str) -> None:
+    kind = "revolute" if "sin" in second else "prismatic"
+    bodies = f"{{mass: M, at: [X, 0, 0]}}, {{mass: m, at: {second}}}"
+    text = f"model: {{coordinates: {{X: prismatic, s: {kind}}}, bodies: [{bodies}]}}\ngravity: [0, -g, 0]"
+    assert not list(placed_bodies.wedges(placed_pose(read_problem(text.encode(), "cart.yaml"))))
 
 
 def said_of_disks(problem: Problem) -> set[str]:
