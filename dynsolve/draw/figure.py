@@ -27,16 +27,30 @@ from dynsolve.draw.paths import SIZE, WHITE, Path, Run
 from dynsolve.draw.pose_search import held_pose
 from dynsolve.draw.poses import Notes, Pose
 from dynsolve.draw.scene import Scene, framed, leads
-from dynsolve.draw.skeleton import numbers, orientation
+from dynsolve.draw.skeleton import Leg, RobotNumbers, Skeleton, numbers, orientation, skeleton
 from dynsolve.draw.solids import ground, solids
-from dynsolve.draw.vectors import NEAR, Point, Vector, from_to, length, moved, unit
+from dynsolve.draw.vectors import (
+    NEAR,
+    Point,
+    Vector,
+    along,
+    cross,
+    dot,
+    from_to,
+    length,
+    moved,
+    subtract,
+    unit,
+)
 from dynsolve.errors import UsageError
 from dynsolve.notation.markup import LatexPrinter, quoted
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Node, Product, Quotient, Row, Sum, Words
+from dynsolve.notation.tree import Node, Number, Product, Quotient, Row, Sum, Words
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import printable
 from dynsolve.problem.model import Problem
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Convention, JointType, Robot
 
 # A scene as SVG: paths, and text that stays text
 
@@ -324,6 +338,10 @@ _ARROW = 62.0
 _END_ON = 0.12
 """An arrow that is foreshortened more is drawn as one that is seen end on."""
 
+TIP_ON = ("The tip lies on the dashed axis.", "The tip lies on the dashed axes.")
+_ON_AXIS, _ELSEWHERE = 1e-4, 0.37
+"""How near to an axis a point is on it, and the first coordinate of another pose."""
+
 _ALONG, _OFF = 0.95, 16.0
 """The cosine from which an arrow lies on the last link, and how far before the tip it ends then."""
 
@@ -339,10 +357,41 @@ def drawn_arm(figure: ArmFigure, problem: Problem, style: Style) -> Picture | No
     body = (*ground(pose.parts, pose.view), *solids(pose.parts, pose.view, world.up))
     notes = poses.Notes(style, Taken())
     notes.taken.add(body)
+    axes = list(axes_through_tip(robot, values, pose))
+    lines = tuple(_axis_line(name, leg, pose, notes) for name, leg in axes)
     for arrow in figure.arrows:
         _arrow(arrow, at, pose, notes)
-    scene = _with_labels(figure.caption, notes, body)
-    return Picture(to_svg(scene), figure.caption, to_latex_picture(scene))
+    caption = " ".join((figure.caption, *TIP_ON[: len(axes)][-1:]))
+    scene = _with_labels(caption, notes, (*lines, *body))
+    return Picture(to_svg(scene), caption, to_latex_picture(scene))
+
+
+def axes_through_tip(robot: Robot, values: RobotNumbers, pose: Pose) -> Iterator[tuple[Node, Leg]]:
+    """The axes of turning joints on which the tip lies in this pose, not in every one; with their names."""
+    other = skeleton(robot, values, [_ELSEWHERE * (k + 1) for k in range(robot.n)])
+    for joint, leg, elsewhere in zip(robot.joints, pose.skeleton.legs, other.legs, strict=True):
+        is_seen = length((*pose.view.direction(leg.axis), 0.0)) > _END_ON
+        if joint.type is not JointType.REVOLUTE or not is_seen:
+            continue
+        if _off(leg, pose.skeleton) < _ON_AXIS < _off(elsewhere, other):
+            frame = joint.parent if robot.convention is Convention.STANDARD else joint.index
+            yield letters.bold("z", Number(frame)), leg
+
+
+def _off(leg: Leg, body: Skeleton) -> float:
+    """How far the tip is from the axis of a row."""
+    return length(cross(leg.axis, subtract(body.frames[-1].origin, leg.foot)))
+
+
+def _axis_line(name: Node, leg: Leg, pose: Pose, notes: poses.Notes) -> Path:
+    """The axis from its joint past the tip, with its name at that end."""
+    reach = dot(subtract(pose.skeleton.frames[-1].origin, leg.foot), leg.axis)
+    past = along(leg.foot, leg.axis, reach + math.copysign(pose.view.space(_ARROW), reach))
+    a, b = pose.view.point(leg.foot), pose.view.point(past)
+    line = Path(paths.line(a, b), paths.FRAME, 1.2, dashed=True)
+    notes.taken.add([line])
+    notes.label(name, [b], from_to(a, b), paths.FRAME, "axis")
+    return line
 
 
 def _arrow(arrow: ArmArrow, at: Mapping[str, float], pose: Pose, notes: poses.Notes) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 import dynsolve
 from dynsolve.document.figures import ArmFigure, Figure, FigureAngle, FigureLine, LineKind
-from dynsolve.draw.figure import drawn, drawn_arm, figure_scene
+from dynsolve.draw.figure import TIP_ON, axes_through_tip, drawn, drawn_arm, figure_scene
 from dynsolve.draw.paths import VARIABLE
 from dynsolve.draw.pose_search import held_pose
 from dynsolve.draw.skeleton import numbers, orientation, skeleton
@@ -18,6 +18,7 @@ from dynsolve.draw.vectors import dot, length, point_to_segment, subtract
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.tree_values import evaluate
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 from dynsolve.robot.model import JointType
 
@@ -76,6 +77,10 @@ dh:
 find: [singular]
 """
 PLANAR = "gravity: [0, -g, 0]\ndh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nfind: [singular]\n"
+MODIFIED = """
+dh: [{theta: q1*, d: d1}, {theta: q2*, alpha: 90deg}, {theta: q3*, a: a2}, {a: a3}]
+find: [singular]
+"""
 TURNING = PLANAR.replace("find", "task: [tip.x, tip.y, q1 + q2]\nfind")
 """With the direction of the hand a third component, no motion of the tip alone is lost."""
 
@@ -129,6 +134,30 @@ def test_no_arrow_lies_on_the_last_link(text: str) -> None:
         assert shaft is not None
         x0, y0, x1, y1 = map(float, shaft.groups())
         assert point_to_segment(((x0 + x1) / 2, (y0 + y1) / 2), link[0], link[1]) > 8.0
+
+
+@pytest.mark.parametrize(
+    ("text", "axes"),
+    [
+        (ELBOW, [["z₀"], []]),
+        (SLIDING, [["z₀"], []]),
+        (PLANAR, [[]]),
+        (f"convention: modified\n{MODIFIED}", [["z₁"], []]),
+    ],
+)
+def test_the_axis_on_which_the_tip_lies_is_drawn(text: str, axes: list[list[str]]) -> None:
+    """There the tip does not move as that joint turns; the axis is dashed, and the caption says so."""
+    problem = read_problem(text, "own.yaml")
+    known = numbers(problem)
+    drawn = []
+    for figure in figures(text):
+        found = held_pose(problem.robot, known, orientation(problem.robot, known), figure.zeros)
+        picture = drawn_arm(figure, problem, Style())
+        assert found is not None and picture is not None
+        drawn.append([to_unicode(name) for name, _ in axes_through_tip(problem.robot, known, found[0])])
+        assert (TIP_ON[0] in picture.caption) is bool(drawn[-1])
+        assert ("stroke-dasharray" in picture.svg) is bool(drawn[-1])
+    assert drawn == axes
 
 
 def test_the_same_drawing_every_time() -> None:
