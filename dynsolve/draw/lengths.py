@@ -17,7 +17,7 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Box, Label, Wanted, place, written
 from dynsolve.draw.paths import Path
-from dynsolve.draw.poses import MARK, Notes, Pose, axis_arrow, seen_end_on
+from dynsolve.draw.poses import AXIS, Notes, Pose, world_axes
 from dynsolve.draw.skeleton import RobotNumbers, opposite, unsigned
 from dynsolve.draw.vectors import (
     IDENTITY,
@@ -237,9 +237,6 @@ def _from_ends(a: Point, b: Point, shift: Point) -> list[tuple[Point, Point]]:
 _LEAN, _BEYOND = 62.0, 12.0
 """The radius of the arc of the angle by which the base leans, and how far its lines reach beyond it."""
 
-_ASIDE = 36.0
-"""How long the axes of the world are where they stand aside."""
-
 _ALONG = 0.9
 """The cosine from which an axis is seen end on."""
 
@@ -271,24 +268,11 @@ def is_aside(robot: Robot, numbers: RobotNumbers, drawn: bool) -> bool:
     return leans and numbers.moved == ORIGIN and len(robot.base_turns) != 1
 
 
-def world_aside(at: Point, view: View, notes: Notes) -> None:
-    """The axes of the world at a place on paper."""
-    for letter, axis in zip("xyz", IDENTITY, strict=True):
-        x, y = view.direction(axis)
-        tip, reach = moved(at, (x, y), _ASIDE), math.hypot(x, y)
-        if reach < 1.0 - _ALONG:
-            seen_end_on(at, dot(axis, view.toward) > 0, notes)
-        else:
-            back = moved(tip, (x / reach, y / reach), -6.0)
-            notes.draw(*paths.arrow(at, back, tip, (x, y), paths.FRAME, 1.6))
-        radius = MARK if reach < 1.0 - _ALONG else 0.0
-        notes.label(letters.bold(letter, Words("w")), [tip], (x, y), paths.FRAME, "axis", radius)
-
-
 def world_frame(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> tuple[Path, ...]:
     """The axes of the world and the angle of the base; the lines that lie under all else."""
     if numbers.moved != ORIGIN:
-        _axes(scale(numbers.moved, -1.0), pose, notes)
+        at = pose.view.point(scale(numbers.moved, -1.0))
+        world_axes(at, Words("w"), pose.view, AXIS, notes)
     _lean(robot, numbers, pose, notes)
     points = [pose.view.point(corner) for corner in _corners(numbers)]
     way = Path(paths.line(*points), paths.GREY, 1.0, dashed=True)
@@ -314,16 +298,6 @@ def _corners(numbers: RobotNumbers) -> list[Vector]:
     for axis, amount in zip(IDENTITY, numbers.moved, strict=True):
         at.append(along(at[-1], axis, amount))
     return at
-
-
-def _axes(origin: Vector, pose: Pose, notes: Notes) -> None:
-    at = pose.view.point(origin)
-    for letter, axis in zip("xyz", IDENTITY, strict=True):
-        tip = axis_arrow(at, axis, pose, notes)
-        if tip == at:
-            seen_end_on(at, dot(axis, pose.view.toward) > 0, notes)
-        radius = MARK if tip == at else 0.0
-        notes.label(letters.bold(letter, Words("w")), [tip], from_to(at, tip), paths.FRAME, "axis", radius)
 
 
 def _lean(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None:

@@ -24,12 +24,11 @@ from dynsolve.draw.labels import Box, Label, Taken, place, written
 from dynsolve.draw.lengths import tilt
 from dynsolve.draw.paths import Path, typeset
 from dynsolve.draw.placed_pose import Kind, Piece, Place, PlacedPose, Turning, placed_pose
-from dynsolve.draw.poses import Notes, draw_spring, spiral, zigzag
+from dynsolve.draw.poses import Notes, draw_spring, spiral, world_axes, zigzag
 from dynsolve.draw.scene import PLAIN, Scene, framed, gravity_arrow, leads
 from dynsolve.draw.skeleton import finite
 from dynsolve.draw.solids import BODY, block, half_axes
 from dynsolve.draw.vectors import (
-    IDENTITY,
     NEAR,
     ORIGIN,
     Point,
@@ -53,7 +52,6 @@ from dynsolve.draw.vectors import (
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Symbol
 from dynsolve.problem.model import Problem
-from dynsolve.quantities import letters
 from dynsolve.questions.constraints.derive import constraint_functions, holonomic
 from dynsolve.robot.model import Body, JointType
 
@@ -103,7 +101,8 @@ def placed_scene(problem: Problem, star: bool = True) -> Scene:
     seen = (*lines, *solid)
     notes.taken.add([*lines, *(replace(wedge, fill=None) for wedge in under), *disks, *rods, *others])
     notes.solid.add([*under, *disks, *others])
-    _world(pose, notes)
+    world_axes(pose.view.point(ORIGIN), Number(0), pose.view, _AXIS, notes, end_on=False)
+    notes.solid.add(notes.paths)
     turning = list(pose.turning(_STEPS))
     for turned in turning:
         _angle(turned, pose, notes)
@@ -355,20 +354,6 @@ def _name(body: Body, pose: PlacedPose, wedge: Wedge | None, notes: Notes) -> No
 
 
 # -- the world and angles --------------------------------------------------------------------------
-
-
-def _world(pose: PlacedPose, notes: Notes) -> None:
-    at = pose.view.point(ORIGIN)
-    for letter, axis in zip("xyz", IDENTITY, strict=True):
-        x, y = pose.view.direction(axis)
-        if math.hypot(x, y) < NEAR:
-            continue
-        tip = moved(at, (x, y), _AXIS)
-        back = moved(at, (x, y), _AXIS - 6.0 / math.hypot(x, y))
-        arrow = paths.arrow(at, back, tip, (x, y), paths.FRAME, 1.6, halo=4.2)
-        notes.draw(*arrow)
-        notes.solid.add(arrow)
-        notes.label(letters.bold(letter, Number(0)), [tip], (x, y), paths.FRAME, "axis")
 
 
 def _angle(turned: Turning, pose: PlacedPose, notes: Notes) -> None:

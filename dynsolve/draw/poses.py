@@ -26,6 +26,7 @@ from dynsolve.draw.parts import RADIUS, TUBE, JointBody, Parts
 from dynsolve.draw.paths import Path, typeset
 from dynsolve.draw.skeleton import Leg, Orientation, RobotNumbers, Skeleton, finite
 from dynsolve.draw.vectors import (
+    IDENTITY,
     NEAR,
     Point,
     Vector,
@@ -283,7 +284,7 @@ def frames(pose: Pose, gravity: Vector | None, notes: Notes) -> None:
             axes.append(("y", frame.axes[1]))
         for letter, axis in axes:
             name = letters.bold(letter, Number(i))
-            tip = axis_arrow(origin, axis, pose, notes)
+            tip = axis_arrow(origin, axis, view, reach_of_axis(view.direction(axis), pose), notes)
             known = next(
                 (g for g in groups if math.dist(g[1], tip) < _SAME and math.dist(g[0], origin) < _SAME), None
             )
@@ -298,14 +299,13 @@ def frames(pose: Pose, gravity: Vector | None, notes: Notes) -> None:
         notes.label(node, [tip], from_to(origin, tip), paths.FRAME, "axis", radius)
 
 
-def axis_arrow(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
+def axis_arrow(origin: Point, axis: Vector, view: View, reach: float, notes: Notes) -> Point:
     """Draw an axis, and give its tip."""
-    view = pose.view
     x, y = view.direction(axis)
-    if _is_end_on(axis, pose):
+    if _is_end_on(axis, view):
         notes.taken.add([Path(paths.circle(origin, MARK))])  # drawn last, by `axes_end_on`
         return origin
-    tip = moved(origin, (x, y), reach_of_axis((x, y), pose))
+    tip = moved(origin, (x, y), reach)
     back = moved(tip, (x / math.hypot(x, y), y / math.hypot(x, y)), -6.0)
     arrow = paths.arrow(origin, back, tip, (x, y), paths.FRAME, 1.6, halo=4.2)
     notes.draw(*arrow)
@@ -314,22 +314,36 @@ def axis_arrow(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
     return tip
 
 
+def world_axes(
+    at: Point, index: Node, view: View, reach: float, notes: Notes, *, end_on: bool = True
+) -> None:
+    """The axes of the world at a place on paper; without `end_on` none that is seen end on."""
+    for letter, axis in zip("xyz", IDENTITY, strict=True):
+        is_seen = not _is_end_on(axis, view)
+        if is_seen or end_on:
+            tip = axis_arrow(at, axis, view, reach, notes)
+            radius = 0.0 if is_seen else MARK
+            notes.label(letters.bold(letter, index), [tip], from_to(at, tip), paths.FRAME, "axis", radius)
+        if end_on and not is_seen:
+            seen_end_on(at, dot(axis, view.toward) > 0, notes)
+
+
 def axes_end_on(pose: Pose, notes: Notes) -> None:
     """The axes that are seen end on, over the masses at their origins."""
     for frame in pose.skeleton.frames:
         for axis in (frame.x, frame.z):
-            if _is_end_on(axis, pose):
+            if _is_end_on(axis, pose.view):
                 seen_end_on(pose.view.point(frame.origin), dot(axis, pose.view.toward) > 0, notes)
 
 
 def reach_of_axis(direction: Point, pose: Pose) -> float:
     """How long an axis is drawn that has this direction on paper: beyond an arc, with its whole head."""
     has_arcs = len(pose.skeleton.legs) <= MANY
-    return max(AXIS, ARC + _PAST_ARC / math.hypot(*direction)) if has_arcs else AXIS
+    return max(AXIS, ARC + _PAST_ARC / max(_END_ON, math.hypot(*direction))) if has_arcs else AXIS
 
 
-def _is_end_on(axis: Vector, pose: Pose) -> bool:
-    return math.hypot(*pose.view.direction(axis)) < _END_ON
+def _is_end_on(axis: Vector, view: View) -> bool:
+    return math.hypot(*view.direction(axis)) < _END_ON
 
 
 def seen_end_on(center: Point, toward: bool, notes: Notes, colour: str = paths.FRAME) -> None:
@@ -375,7 +389,7 @@ def _is_under_axis(center: Point, pose: Pose) -> bool:
     """Whether an axis that is seen end on stands where a mass centre is."""
     return any(
         math.dist(center, pose.view.point(frame.origin)) < MARK
-        and any(_is_end_on(axis, pose) for axis in (frame.x, frame.z))
+        and any(_is_end_on(axis, pose.view) for axis in (frame.x, frame.z))
         for frame in pose.skeleton.frames
     )
 

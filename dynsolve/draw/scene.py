@@ -36,7 +36,6 @@ from dynsolve.draw.lengths import (
     row_lengths,
     tilt,
     twists,
-    world_aside,
     world_frame,
 )
 from dynsolve.draw.mass_centers import DrawnBody, Form
@@ -62,7 +61,7 @@ from dynsolve.draw.vectors import (
 )
 from dynsolve.notation.characters import SUBSCRIPT_DIGITS
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
+from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol, Words
 from dynsolve.problem.model import Problem
 from dynsolve.questions.constraints.derive import holonomic
 from dynsolve.robot.model import JointType, Robot
@@ -139,6 +138,9 @@ def _arrows(p: Point, q: Point, name: Node, notes: Notes) -> None:
         notes.draw(*paths.arrow(ends[-1], back, tip, inward, paths.BLACK, 1.0, halo=3.4, size=_HEAD))
     notes.label(name, ends, (0.0, 0.0), paths.BLACK, "length")
 
+
+_ASIDE = 36.0
+"""How long the axes of the world are where they stand aside."""
 
 _GRAVITY_ROOM, _WORLD_ROOM = Box(-26.0, -18.0, 36.0, 64.0), Box(-60.0, -60.0, 60.0, 60.0)
 """The room around the beginning of the arrow of gravity, and around the axes of the world."""
@@ -220,7 +222,8 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     lengths += given
     dimensions([*lengths, *_center_lengths(pose)], pose, notes)
     if is_aside(robot, values, problem.normals is not None):
-        world_aside(_free_place([*under, *body], notes, _WORLD_ROOM), pose.view, notes)
+        beside = _free_place([*under, *body], notes, _WORLD_ROOM)
+        poses.world_axes(beside, Words("w"), pose.view, _ASIDE, notes)
     if world.gravity is not None:
         tilt(robot, world.gravity, pose.view, notes)
         gravity_arrow(robot, world.gravity, pose.view, [*under, *body], notes)
@@ -330,7 +333,7 @@ def gravity_arrow(
 ) -> None:
     """The arrow of gravity, at the side where there is most room."""
     end_on = view.flat and abs(dot(gravity, view.toward)) > 0.9
-    direction = None if end_on else _unit(view.direction(gravity))
+    direction = None if end_on else toward((0.0, 0.0), view.direction(gravity))
     poses.gravity(robot, _free_place(body, notes, _GRAVITY_ROOM), direction, notes)
 
 
@@ -349,11 +352,6 @@ def _free_place(body: Iterable[Path], notes: poses.Notes, room: Box) -> Point:
 
     best = min(places, key=crowded)
     return (box.right + 40.0, box.top + 30.0) if crowded(best) else best
-
-
-def _unit(a: Point) -> Point:
-    size = (a[0] ** 2 + a[1] ** 2) ** 0.5
-    return a[0] / size, a[1] / size
 
 
 def leads(labels: Iterable[Label]) -> Iterable[Path]:
