@@ -28,7 +28,7 @@ from dynsolve.explain.entry_formulas import collected, collected_coriolis_force,
 from dynsolve.explain.forms import entry_of
 from dynsolve.explain.matrix_factors import matrix_width
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.writing import listed, sum_of
+from dynsolve.explain.writing import agreeing, listed, sum_of
 from dynsolve.notation.build import cost, summands, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
@@ -309,9 +309,9 @@ def equation_of_motion(robot: Robot, q: Coordinate, row: Node) -> Relation:
 
 
 def driving_row(robot: Robot, q: Coordinate, *, with_passive: bool = True) -> Node:
-    """τ_k + Q_k + (A_cᵀ λ)_k: what a row of the left side comes to, with everything that acts."""
-    asked = robot.questions
-    is_driven = with_passive or q.index - 1 not in robot.actions.passive
+    """τ_k + Q_k + (A_cᵀ λ)_k: what a row of the left side comes to; beside others no τ_k that is 0."""
+    asked, is_driven = robot.questions, q.index - 1 not in robot.actions.passive
+    is_driven |= with_passive and not (asked.loads or asked.constraints)
     motor: list[Node] = [letters.force(q)] if is_driven else []
     outside: list[Node] = [letters.entry("Q", q.index)] if asked.loads else []
     held: list[Node] = [Entry(_HELD, Number(q.index))] if asked.constraints else []
@@ -361,11 +361,11 @@ def _meanings(context: Context) -> Prose:
 
 
 def motors_prose(context: Context) -> Prose:
-    """Which names stand for what the motors do."""
+    """Which names stand for what the motors of an arm do, or for what drives a mechanism."""
     robot = context.robot
     forces = [letters.force(q) for k, q in enumerate(robot.coordinates) if k not in robot.actions.passive]
-    what = " {forces} is what the motor does." if len(forces) == 1 else " {forces} are what the motors do."
-    return say(what, forces=listed(forces)) if forces else ()
+    what = "what the motor|motors does|do" if robot.has_table else "the driving force|forces"
+    return say(agreeing(f" {{forces}} is|are {what}.", len(forces)), forces=listed(forces)) if forces else ()
 
 
 def with_force_letters(robot: Robot) -> Callable[[Node], Node]:

@@ -32,7 +32,8 @@ A folder has the name of its stage (`quantities.stages`), and these files, of wh
                 `EQUIVALENCES`: what is right without being the key's (`judging`; sets of equations are in
                 `equation_sets`, as formulas in `set_forms`)
 
-A file that several explain with is `shared_divisor`: a name for what many entries are over.
+Files that several explain with are `shared_divisor`, a name for what many entries are over, and
+`independent_rows`, where a Jacobian has its rank.
 
 `Stage.part` imports a file by its path when it is asked for: rooms below and beside these name no question,
 and one that nobody asks costs nothing.  A new question is a line in `Stage` and such a folder; if it needs

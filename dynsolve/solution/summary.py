@@ -349,11 +349,12 @@ def _asked_for(name: str, robot: Robot, steps: Sequence[Step]) -> Iterator[Block
     quantity = quantities(robot).get(name)
     letter = quantity.letter(robot) if quantity is not None and quantity.family.has_letter else None
     by_letter = [
-        Formula(result, entries=step.entries if len(step.result) == 1 else ())
+        Formula(node, entries=step.entries if len(step.result) == 1 else ())
+        for without_result in (True, False)
         for step in steps
-        if step.id == name or step.id not in _ACCELERATIONS
-        for result in step.result or (step.formula,)
-        if isinstance(result, Relation) and result.parts[0] == letter
+        if without_result is not bool(step.result) and (step.id == name or step.id not in _ACCELERATIONS)
+        for node in step.result or (step.formula,)
+        if isinstance(node, Relation) and node.parts[0] == letter
     ]
     yield from by_letter[-1:]
     step = next((step for step in steps if name in (step.id, *step.also)), None)

@@ -598,7 +598,8 @@ def _rank_where_held(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {&}|In equilibrium[ at {&}]|In case #[ at {&}]|In every configuration>: <stable|not stable>"
+    "<At {&}|In the equilibrium {&}|In equilibrium[ at {&}]|In case #[ at {&}]|In every configuration|"
+    "In every equilibrium>: <stable|not stable>"
     "[, but for {&}, <along which nothing changes|with any value of which it is an equilibrium>]."
 )
 def _stable(m: Mechanism, s: Sentence) -> bool:
@@ -792,10 +793,7 @@ def _many_solutions(m: Mechanism, s: Sentence) -> bool:
     return rank(J) == int(s.words[0]) < len(J.T)
 
 
-@says(
-    "<{}|The rest> has <no solution[ in general]|a solution only where {&}>, the rank being #; many come "
-    "nearest to one, in the sense of least squares, those with {}: this is the one ...",
-)
+@says("<{}|The rest> has <no solution[ in general]|a solution only where {&}>, the rank being #.")
 def _many_come_nearest(m: Mechanism, s: Sentence) -> bool:
     J = s.jacobian(m, m.point())
     return rank(J) == int(s.words[-1]) < min(J.shape)
@@ -948,6 +946,12 @@ def _unbalanced_by_any(m: Mechanism, s: Sentence) -> bool:
     return all(min(one) > 0 or max(one) < 0 for one in sides)
 
 
+@says("As masses and lengths of the table are positive, {&}.")
+def _negative(m: Mechanism, s: Sentence) -> bool:
+    solved = [one for one in s.formulas if isinstance(one, tree.Relation)]
+    return all(one.signs == ("=", "<") and m.value(one.parts[1], p) < 0 for one in solved for p in m.points())
+
+
 @says("In case #: <stable|not stable>.")
 def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
     step = next(told for told in sentences(m.document.blocks) if told.text == "It is 0 in these cases:")
@@ -955,7 +959,8 @@ def _stable_in_a_case(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In every configuration|In equilibrium[ at {}]|In case #[ at {}]>[, where {}]: "
+    "<At {}|In the equilibrium {}|In every configuration|In every equilibrium|In equilibrium[ at {}]|"
+    "In case #[ at {}]>[, where {}]: "
     "<stable|not stable> where {}, <stable|not stable> where {}[, ...].",
 )
 def _stable_where(m: Mechanism, s: Sentence) -> bool:
@@ -970,7 +975,8 @@ def _stable_where(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In every configuration|In equilibrium[ at {}]|In case #[ at {}]>[, where {}]: "
+    "<At {}|In the equilibrium {}|In every configuration|In every equilibrium|In equilibrium[ at {}]|"
+    "In case #[ at {}]>[, where {}]: "
     "<stable> where {&}[, not stable where one of these inequalities is reversed][, ...].",
 )
 def _stable_where_all(m: Mechanism, s: Sentence) -> bool:
@@ -981,7 +987,8 @@ def _stable_where_all(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "<At {}|In every configuration|In equilibrium[ at {}]|In case #[ at {}]>[, where {}]: "
+    "<At {}|In the equilibrium {}|In every configuration|In every equilibrium|In equilibrium[ at {}]|"
+    "In case #[ at {}]>[, where {}]: "
     "<not stable> where <{}|{} or {}>.",
 )
 def _falls_where(m: Mechanism, s: Sentence) -> bool:
@@ -1081,7 +1088,7 @@ def _entries(m: Mechanism, s: Sentence) -> bool:
     return rank(np.block(table)) >= count
 
 
-@says("{} is #×#, and its rank is at most #.")
+@says("{} is #×#, and its rank is at most #[; <column|columns|row|rows> ... 0].")
 def _rank(m: Mechanism, s: Sentence) -> bool:
     for p in m.points(5):
         J = m.value(s.formulas[0], p)
@@ -1264,7 +1271,8 @@ The coefficients that occur[ with {&}], ...
 Letters are positive and independent of each other: what vanishes for some of their values alone does not
   count as 0.
 At random joint values this table moves the hand as the product of the exponentials of the drawn axes does.
-It exists where the rows of the Jacobian are independent.
+<It exists|It is determined|They are determined|This is so> where the rows of {} are independent[: not where
+  ...].
 It exists where {}.
 Each axis is carried along by the turns before it, so that its matrix stands on the right.
 The angular velocity is the sum over the turns: the rate of each angle along its axis, as the turns before

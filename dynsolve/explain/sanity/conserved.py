@@ -151,10 +151,8 @@ def _of_momenta(context: Context, free: list[Coordinate]) -> Prose:
 def _acting_on(context: Context, q: Coordinate) -> Node:
     """What really acts on a coordinate: no motor on a passive one, nothing that is 0 in its row."""
     values, k = context.values, q.index - 1
-    row = driving_row(context.robot, q)
+    row = driving_row(context.robot, q, with_passive=False)
     terms = list(row.terms) if isinstance(row, Sum) else [row]
-    if k in context.robot.actions.passive:
-        terms.remove(letters.force(q))
     if context.robot.questions.loads and values[FOR_EVERY_Q][k, 0].is_zero:
         terms.remove(letters.entry("Q", q.index))
     if context.robot.questions.constraints:  # none acts on what is cyclic

@@ -164,8 +164,8 @@ def _nearest(rows: Sequence[Sequence[float]], right: Sequence[float], start: Seq
 def verify(held: Held) -> None:
     """Hold the results as they are printed; raises VerificationError where one is wrong."""
     robot = held.robot
-    acting = ("D", *ACTING) if "lambda" in held.wanted else ()
-    kept = ("hc", "Ac", "Ac_dot", "lambda", *acting)
+    acting = ("D", *ACTING) if held.wanted & {"lambda", "qdd_forward"} else ()
+    kept = ("hc", "Ac", "Ac_dot", "lambda", "qdd_forward", *acting)
     held.hold(verify_constraints, (name for name in kept if name in held.wanted))
     if "reduced" in held.wanted and not isinstance(held.values["reduced"], Skipped):
         residuals = [Sum((left, Negative(right))) for left, right in ReducedForms(robot, held.values).reduced]
@@ -177,15 +177,15 @@ ACTING = ("Cqd", "g", "friction")
 
 
 def verify_constraints(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
-    """Compare printed forms of `hc`, `Ac`, `Ac_dot` and `lambda` with computations on numbers.
+    """Compare printed forms of `hc`, `Ac`, `Ac_dot`, `lambda` and `qdd_forward` with computations on numbers.
 
-    With `lambda` come `D` and those of `ACTING` that there are.  Raises VerificationError where one is
+    With the last two come `D` and those of `ACTING` that there are.  Raises VerificationError where one is
     wrong.
     """
     _verify_functions(robot, results, states)
     _verify_rates(robot, results, states)
-    if "lambda" in results:
-        _verify_multipliers(robot, results, states)
+    if results.keys() & {"lambda", "qdd_forward"}:
+        _verify_motion(robot, results, states)
 
 
 def _verify_functions(robot: Robot, results: Mapping[str, Node], states: int) -> None:
@@ -218,7 +218,7 @@ def _verify_rates(robot: Robot, results: Mapping[str, Node], states: int) -> Non
                 raise VerificationError("Ac differs from the constraint; this is a fault of dynsolve")
 
 
-def _verify_multipliers(robot: Robot, results: Mapping[str, Node], states: int) -> None:
+def _verify_motion(robot: Robot, results: Mapping[str, Node], states: int) -> None:
     program = compile_trees(list(results.values()))
     for values, _ in islice(arms(robot), states):
         ours = dict(zip(results, program.run(values), strict=True))
@@ -227,9 +227,10 @@ def _verify_multipliers(robot: Robot, results: Mapping[str, Node], states: int) 
         rows += [[*row, *[0.0] * len(A)] for row in A]
         along = [-_dot(row, rates) for row in ours["Ac_dot"]]
         theirs = solved(rows, [*_forces(robot, values, ours), *along])
-        gaps = [abs(mine - x) for (mine,), x in zip(ours["lambda"], theirs[robot.n :], strict=True)]
-        if not max(gaps) <= TOLERANCE * max((1.0, *map(abs, theirs))):
-            raise VerificationError("lambda does not keep the constraint; this is a fault of dynsolve")
+        for name, known in (("qdd_forward", theirs[: robot.n]), ("lambda", theirs[robot.n :])):
+            gaps = [abs(mine - x) for (mine,), x in zip(ours.get(name, ()), known, strict=False)]
+            if not max(gaps, default=0.0) <= TOLERANCE * max((1.0, *map(abs, theirs))):
+                raise VerificationError(f"{name} does not keep the constraint; this is a fault of dynsolve")
 
 
 def _forces(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any]) -> list[float]:

@@ -10,13 +10,15 @@ without an inverse, as of a coordinate that moves no mass, leaves both systems t
 
     [D, -A_cᵀ; A_c, 0] [q̈; λ] = [τ + Q - C q̇ - g; -Ȧ_c q̇]
 
+So are the accelerations that given forces make, where these are asked for.
+
 Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, section 6.1.2;
 Siciliano, Sciavicco, Villani, Oriolo, Robotics, section 11.4 for constraints on the rates.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 
 from dynsolve.algebra.linear_systems import (
@@ -95,20 +97,29 @@ def multipliers(
     if not scale.is_zero and work(square) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
     if scale.is_zero or determinant(square).is_zero:
-        return _together(A, D, vstack(acting, -along))
+        return _together(A, D, vstack(acting, -along), slice(len(D.rows), None))
     wanted = through @ acting + along.scale(scale)
     return if_readable(quotient(-(adjugate(square) @ wanted), determinant(square)))
 
 
-def _together(A: Matrix, D: Matrix, right: Matrix) -> Matrix | FractionMatrix | Skipped:
-    """λ of a D without an inverse."""
+def accelerations(
+    robot: Robot, A: Matrix, A_dot: Matrix, D: Matrix, acting: Matrix
+) -> Matrix | FractionMatrix | Skipped:
+    """q̈, n×1, from the same, together with λ."""
+    if rank_parts(A).rank < len(A.rows):
+        return Skipped(DEPENDENT)
+    return _together(A, D, vstack(acting, -(A_dot @ velocities(robot))), slice(len(D.rows)))
+
+
+def _together(A: Matrix, D: Matrix, right: Matrix, rows: slice) -> Matrix | FractionMatrix | Skipped:
+    """These rows of q̈ and λ, where both systems are solved together."""
     both = bordered(A, D)
     if work(both) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
     found = inverse_times(both, right)
     if found is None:
         return Skipped(FREE)
-    return if_readable(tidy(D.ring, (map(fraction_of, row) for row in found.rows[len(D.rows) :])))
+    return if_readable(tidy(D.ring, (map(fraction_of, row) for row in found.rows[rows])))
 
 
 def bordered(A: Matrix, D: Matrix) -> Matrix:
@@ -119,7 +130,7 @@ def bordered(A: Matrix, D: Matrix) -> Matrix:
 
 # The rules
 
-LAMBDA, REDUCED = "lambda", "reduced"
+LAMBDA, REDUCED, QDD_FORWARD = "lambda", "reduced", "qdd_forward"
 
 
 def rules(robot: Robot) -> Iterator[Rule]:
@@ -134,8 +145,9 @@ def rules(robot: Robot) -> Iterator[Rule]:
     yield Rule("hc", tuple(position_rule(robot, point) for point in used), functions)
     yield Rule("Ac", ("hc",), partial(constraint_matrix, robot))
     yield Rule("Ac_dot", ("Ac",), task.rate)
-    if LAMBDA in robot.questions.asked and robot.has_dynamics:
-        yield _multipliers(robot)
+    for name, solve in ((LAMBDA, multipliers), (QDD_FORWARD, accelerations)):
+        if name in robot.questions.asked and robot.has_dynamics:
+            yield _solved(robot, name, solve)
     if REDUCED in robot.questions.asked and robot.has_dynamics:
         yield Rule(REDUCED, ("hc", "Ac", "tau", *outside_names(robot)), partial(_reduced, robot))
 
@@ -150,12 +162,14 @@ def _reduced(robot: Robot, h: Matrix, A: Matrix, *forces: Matrix) -> Reduced | S
     return reduced(robot, A, [value for value in kept if not value.is_zero], *forces)
 
 
-def _multipliers(robot: Robot) -> Rule:
+def _solved(robot: Robot, name: str, solve: Callable[..., Matrix | FractionMatrix | Skipped]) -> Rule:
+    """The rule of λ, or of q̈."""
+
     def compute(
         h: Matrix, A: Matrix, A_dot: Matrix, D: Matrix, *forces: Matrix
     ) -> Matrix | FractionMatrix | Skipped:
         if where_allowed(robot, A, h).is_less:
             return Skipped(NOT_DETERMINED)
-        return multipliers(robot, A, A_dot, D, acting_forces(robot, *forces))
+        return solve(robot, A, A_dot, D, acting_forces(robot, *forces))
 
-    return Rule(LAMBDA, ("hc", "Ac", "Ac_dot", "D", *acting_names(robot)), compute)
+    return Rule(name, ("hc", "Ac", "Ac_dot", "D", *acting_names(robot)), compute)

@@ -21,7 +21,7 @@ from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.sanity.determinant import sign_of
-from dynsolve.explain.step import Detail, Line, Step, not_derived
+from dynsolve.explain.step import NOTED, Detail, Line, Step, not_derived
 from dynsolve.explain.terms import (
     acting_side,
     driving_side,
@@ -53,6 +53,7 @@ from dynsolve.questions.forward_dynamics.explain import (
     is_not_derived,
     is_too_large,
 )
+from dynsolve.questions.independent_rows import where_independent
 from dynsolve.questions.set_forms import SetForms, without_number
 from dynsolve.questions.task.explain import with_letters
 
@@ -64,8 +65,9 @@ _ZERO = formula("𝟎")
 
 def given(forms: Forms) -> Iterator[Prose]:
     """What every motion keeps."""
-    for constraint in forms.robot.questions.constraints:
-        yield ("Every motion keeps ", equation(mapped(constraint.entry, with_letters), ZERO), ".")
+    constraints = forms.robot.questions.constraints
+    if kept := [equation(mapped(one.entry, with_letters), ZERO) for one in constraints]:
+        yield ("Every motion keeps ", *listed(kept), ".")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -161,6 +163,16 @@ def _multipliers(context: Context) -> Step:
             "$𝐃$ has no inverse: its determinant is 0. So these equations and {kept} are solved together.",
             kept=_KEPT,
         )
+    where = where_independent(context, context.values["Ac"], letters.A_C)
+    determined = (
+        say(
+            "{they} determined {where}.",
+            they="They are" if len(context.values["Ac"].rows) > 1 else "It is",
+            where=where,
+        )
+        if where
+        else ()
+    )
     step = Step(
         id="lambda",
         title="The multipliers",
@@ -176,7 +188,10 @@ def _multipliers(context: Context) -> Step:
         lines=lines,
         concluding=(concluding,) if lines else (),
         result=(equation(letters.LAMBDA, value),),
+        notes=(determined,) if determined else (),
+        holds=determined,
         detail=Detail.BRIEF,
+        normal=NOTED,
     )
     return as_far_as_read(step, found)
 

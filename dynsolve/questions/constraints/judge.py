@@ -26,12 +26,14 @@ from dynsolve.questions.constraints.check import ConstrainedStates, constrained_
 from dynsolve.questions.judging import (
     RIGHT,
     Alternatives,
+    Case,
     Fault,
     Judged,
     SetKey,
     SetVerdict,
     by_code,
     nodes_of,
+    right_as,
 )
 from dynsolve.questions.rates.check import orthonormal
 from dynsolve.robot.model import Robot
@@ -143,6 +145,10 @@ class OwnConstraint:
         mine = self._forces(self.rows, [row[0] for row in rows])
         return self._agree((mine,), (self._forces(self._key("Ac"), [row[0] for row in self._key("lambda")]),))
 
+    def accelerations(self, entries: Sequence[RationalExpr]) -> bool:
+        """Whether accelerations that forces make are the key's, for every state or where h = 0."""
+        return bool(self._agree(tuple((entry,) for entry in entries), self._key("qdd_forward")))
+
     def _forces(self, A: Rows, multipliers: Sequence[RationalExpr]) -> tuple[RationalExpr, ...]:
         """A_cᵀ λ"""
         zero = self.ring.zero
@@ -227,3 +233,12 @@ class OwnConstraint:
             for k, q in enumerate(self.robot.coordinates):
                 at[q.name] -= sum(row[k] * x for row, x in zip(A, step, strict=True))
         return False
+
+
+def _moves_alike(case: Case) -> bool:
+    """Whether accelerations differ from the key's only where the constraints do not hold."""
+    is_held = bool(case.robot.questions.constraints)
+    return is_held and OwnConstraint(case.robot, case.result).accelerations(case.entries)
+
+
+EQUIVALENCES = (right_as(ON_CONSTRAINT, _moves_alike, "qdd_forward"),)

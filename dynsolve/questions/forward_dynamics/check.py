@@ -40,5 +40,5 @@ def verify_forward(robot: Robot, results: Mapping[str, Node], states: int = 5) -
 
 def verify(held: Held) -> None:
     """Hold the results as they are printed; raises VerificationError where one is wrong."""
-    if "qdd_forward" in held.wanted:
+    if "qdd_forward" in held.wanted and not held.robot.questions.constraints:  # else with λ
         held.hold(verify_forward, COMPARED)

@@ -42,12 +42,10 @@ TOO_LARGE = "multiplied out they are too large to be read"
 
 SINGULAR = "the inertia matrix has no inverse: its determinant is 0 in every configuration"
 
-CONSTRAINED = "the forces of the constraints act, too: the accelerations follow with the multipliers"
-
 
 def rules(robot: Robot) -> Iterator[Rule]:
-    """The accelerations q̈, of a robot with masses."""
-    if robot.has_dynamics:
+    """The accelerations q̈, of a robot with masses; with constraints these have the rule."""
+    if robot.has_dynamics and not robot.questions.constraints:
         yield Rule("qdd_forward", ("D", *acting_names(robot)), partial(accelerations, robot))
 
 
@@ -78,8 +76,6 @@ def acting_forces(robot: Robot, *forces: Matrix) -> Matrix:
 
 def accelerations(robot: Robot, D: Matrix, *forces: Matrix) -> Matrix | FractionMatrix | Skipped:
     """q̈, n×1, from D and the forces of `acting_names`."""
-    if robot.questions.constraints:
-        return Skipped(CONSTRAINED)
     acting = acting_forces(robot, *forces)
     if work(D) * max(1, max(map(len, acting.entries))) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -12,10 +13,11 @@ from dynsolve.algebra.lowest_terms import is_decided
 from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.algebra.ring_values import build_ring
 from dynsolve.derivation.graph import Skipped
-from dynsolve.document.books import LYNCH_PARK
+from dynsolve.document import Prose
+from dynsolve.document.books import LYNCH_PARK, mls
 from dynsolve.document.sentences import say
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Line, Step, not_derived
+from dynsolve.explain.step import NOTED, Detail, Line, Step, not_derived
 from dynsolve.explain.terms import (
     acting_side,
     equations_of_motion,
@@ -26,7 +28,8 @@ from dynsolve.explain.writing import is_small, scalar
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Number, Quotient, Symbol, equation, mapped
 from dynsolve.quantities import letters
-from dynsolve.questions.forward_dynamics.derive import TOO_LARGE
+from dynsolve.questions.forward_dynamics.derive import TOO_LARGE, acting_names
+from dynsolve.questions.independent_rows import where_independent
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -37,10 +40,10 @@ def steps(context: Context) -> Iterator[Step]:
     if is_not_derived(value):
         yield not_derived("qdd_forward", "The accelerations", value.why)
         return
+    if context.robot.questions.constraints:
+        yield as_far_as_read(_constrained(context, value), value)
+        return
     lines = () if is_too_large(value) else inverse_of_inertia(context)
-    accelerations = tuple((Symbol(q.name, 2),) for q in context.robot.coordinates)
-    shown = mapped(context.form("qdd_forward"), with_force_letters(context.robot))
-    letter = accelerations[0][0] if len(accelerations) == 1 else letters.QDD
     step = Step(
         id="qdd_forward",
         title="The accelerations that the forces make",
@@ -56,11 +59,50 @@ def steps(context: Context) -> Iterator[Step]:
         concluding=(f"Multiplied out{'' if is_diagonal(context.values['D']) else and_cancelled(value)}:",)
         if lines
         else (),
-        result=(equation(letter, scalar(shown)),),
-        entries=accelerations,
         detail=Detail.BRIEF,
+        **_result(context),
     )
     yield as_far_as_read(step, value)
+
+
+def _result(context: Context) -> dict[str, Any]:
+    """The accelerations, and the letters of their entries."""
+    accelerations = tuple((Symbol(q.name, 2),) for q in context.robot.coordinates)
+    shown = mapped(context.form("qdd_forward"), with_force_letters(context.robot))
+    letter = accelerations[0][0] if len(accelerations) == 1 else letters.QDD
+    return {"result": (equation(letter, scalar(shown)),), "entries": accelerations}
+
+
+def _constrained(context: Context, value: Matrix | FractionMatrix | Skipped) -> Step:
+    """With the multipliers where these are told, else together with them."""
+    found, acting = context.values["lambda"] if "lambda" in context.wanted else None, acting_side(context)
+    is_known = found is not None and not isinstance(found, Skipped)
+    is_known = is_known and not determinant(context.values["D"]).is_zero
+    together = formula("[𝐃, -𝐀_cᵀ; 𝐀_c, 𝟎] [𝐪̈; 𝛌] = [{acting}; -𝐀̇_c 𝐪̇]", acting=acting)
+    where = where_independent(context, context.values["Ac"], letters.A_C)
+    exists: Prose = say("This is so {where}.", where=where) if where and and_cancelled(value) else ()
+    return Step(
+        id="qdd_forward",
+        title="The accelerations that the forces make",
+        why=say(
+            "The equations of motion, {equations}, and $𝐀_c 𝐪̈ + 𝐀̇_c 𝐪̇ = 𝟎$ are linear in the accelerations "
+            "and the multipliers.{known}{motors}",
+            equations=equations_of_motion(context),
+            known=say(" $𝛌$ is known, and is put into the first.") if is_known else "",
+            motors=motors_prose(context),
+        ),
+        formula=formula("𝐪̈ = 𝐃⁻¹ ({acting} + 𝐀_cᵀ 𝛌)", acting=acting) if is_known else together,
+        source=mls("6.1.2"),
+        concluding=(
+            f"Multiplied out{and_cancelled(value)}:" if is_known else "Solved for the accelerations:",
+        ),
+        notes=(exists,) if exists else (),
+        holds=exists,
+        uses=("lambda", "D") if is_known else ("Ac", "Ac_dot", "D", *acting_names(context.robot)),
+        detail=Detail.BRIEF,
+        normal=NOTED,
+        **_result(context),
+    )
 
 
 def is_not_derived(value: Matrix | FractionMatrix | Skipped) -> bool:

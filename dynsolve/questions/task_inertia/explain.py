@@ -20,6 +20,7 @@ from dynsolve.notation.template import formula
 from dynsolve.notation.tree import ZERO, Negative, Node, Number, Power, Relation, equation
 from dynsolve.quantities import letters
 from dynsolve.questions.forward_dynamics.explain import as_far_as_read, is_not_derived, is_too_large
+from dynsolve.questions.independent_rows import where_independent
 
 _SQUARE = "The Jacobian is square, and has an inverse itself where its determinant is not 0."
 
@@ -54,7 +55,6 @@ def steps(context: Context) -> Iterator[Step]:
         source=LYNCH_PARK.section("8.6"),
         working=() if is_too_large(value) else _working(context),
         result=(equation(letters.TASK_INERTIA, context.form("Lambda")),),
-        notes=(("It exists where the rows of the Jacobian are independent.",),),
         detail=Detail.BRIEF,
     )
     if exists := _exists(context):
@@ -63,10 +63,11 @@ def steps(context: Context) -> Iterator[Step]:
 
 
 def _exists(context: Context) -> Prose:
-    """Where a square Jacobian has an inverse; nothing where it always has, or the Jacobian is not square."""
+    """Where the rows of the Jacobian are independent; nothing where they always are."""
     J = context.values["Jr"]
     if J.shape[0] != J.shape[1]:
-        return ()
+        where = where_independent(context, J, letters.J_TASK)
+        return say("It exists {where}.", where=where) if where else ()
     moving = [f for f, _ in trig_factors(determinant(J)) if f.ring.depends_on_coordinates(f)]
     if all(map(is_never_zero, moving)):
         return ()

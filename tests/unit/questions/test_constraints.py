@@ -37,6 +37,36 @@ find: [Ac, Ac_dot, lambda]
 LINE = "constraints: [tip.x - k]\nfind: [Ac, Ac_dot, lambda]\n"
 
 
+def test_it_is_told_where_the_multipliers_are_determined() -> None:
+    """At s1 = s2 = 0 the tip moves across the line alone, so that the row of A_c is 0."""
+    text = report(dynsolve.solve(ELBOW + LINE), Format.TEXT).decode()
+    assert text.count("It is determined where 𝐀_c is not 0: not where s₁ = 0 and s₂ = 0.") == 2
+    never = "model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}\n"
+    plane = report(dynsolve.solve(f"{never}constraints: [y - k*x]\nfind: [lambda]"), Format.TEXT).decode()
+    assert "𝛌 = " in plane and "determined" not in plane
+
+
+def test_where_the_energy_does_not_change_along_what_is_free_all_is_indifferent() -> None:
+    level = f"{ELBOW}constraints: [l1*sin(q1) + l2*sin(q1 + q2) - k]\nfind: [equilibria]"
+    text = report(dynsolve.solve(level.replace("{mass: m1, link: 1}, ", "")), Format.TEXT).decode()
+    assert text.count("they allow is an equilibrium, and all are indifferent.") == 2
+    assert "indifferent" not in report(dynsolve.solve(level), Format.TEXT).decode()
+
+
+def test_the_summary_has_the_inertia_matrix_itself() -> None:
+    """Not the formula by which it is assembled directly."""
+    sledge = """
+        gravity: none
+        model:
+          coordinates: {x: prismatic, y: prismatic, theta: revolute}
+          bodies: [{mass: m, at: [x + d*cos(theta), y, 0], turn: theta, inertia: {zz: J}}]
+        constraints: [{rates: "x'*sin(theta) - y'*cos(theta)"}]
+        find: [D, reduced]
+    """
+    summary = report(dynsolve.solve(sledge), Format.TEXT).decode().partition("Summary")[2]
+    assert "𝐉_v1" not in summary and "𝐃 = ⎢" in summary
+
+
 def test_everything_that_acts_stands_in_the_multipliers() -> None:
     solution = dynsolve.solve(ELBOW + EVERYTHING)
     assert solution.to_json()["results"]["Ac"][1] == ["1", "-cos(q2)"]
@@ -302,3 +332,12 @@ def test_a_condition_that_is_0_all_along_decides_nothing() -> None:
         "a*sin(u) + b*sin(v) - h", "sin(u) + sin(v)"
     )
     assert solve_json(crossing)["results"]["equilibria"] == [["sin(v - u) = 0", "sin(u) + sin(v) = 0"]]
+
+
+def test_a_force_that_is_0_does_not_stand_beside_that_of_the_constraints() -> None:
+    passive = report(dynsolve.solve(f"{ELBOW}passive: [q2]\n{LINE}"), Format.TEXT).decode()
+    assert "    (𝐀_cᵀ 𝛌)₂ = d/dt" in passive and "τ₂ + " not in passive
+    assert "τ₁ is what the motor does" in " ".join(passive.split())
+    mass = "model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}\n"
+    text = report(dynsolve.solve(f"{mass}constraints: [x*y - k]\nfind: [lambda]"), Format.TEXT).decode()
+    assert "f₁ and f₂ are the driving forces." in " ".join(text.split())

@@ -15,6 +15,7 @@ from dynsolve.errors import VerificationError
 from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import Matrix, Negative, walk
 from dynsolve.quantities import letters
+from dynsolve.questions.constraints.check import verify_constraints
 from dynsolve.questions.forward_dynamics.check import COMPARED, verify_forward
 from dynsolve.render.files import Format
 from dynsolve.solution.reports import report
@@ -82,10 +83,51 @@ def test_a_wrong_result_is_found(text: str) -> None:
         verify_forward(solution.robot, {**right, "qdd_forward": wrong})
 
 
+DISK = """
+gravity: [g*sin(alpha), -g*cos(alpha), 0]
+model:
+  coordinates: {x: prismatic, theta: revolute}
+  bodies: [{mass: m, at: [x, R, 0], turn: -theta, inertia: {zz: m*R^2/2}}]
+constraints: [x - R*theta]
+passive: [x, theta]
+find: [qdd_forward]
+"""
+
+
+def test_a_disk_rolls_down_with_two_thirds_of_gravity() -> None:
+    assert solve_json(DISK)["results"]["qdd_forward"] == ["2*g*sin(alpha)/3", "2*g*sin(alpha)/(3*R)"]
+    text = report(dynsolve.solve(DISK.replace("[qdd", "[lambda, qdd")), Format.TEXT).decode()
+    assert "𝛌 is known, and is put into the first" in text
+
+
+def test_accelerations_with_constraints_are_held_and_judged_where_these_hold(tmp_path: Path) -> None:
+    """On the circle x² + y² = l² of a pendulum in coordinates of its mass."""
+    text = """
+gravity: [0, -g, 0]
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}
+constraints: [x^2 + y^2 - l^2]
+passive: [x, y]
+find: [qdd_forward]
+"""
+    solution = dynsolve.solve(text)
+    right = {name: solution.forms(name) for name in ("hc", "Ac", "Ac_dot", "D", "Cqd", "g", "qdd_forward")}
+    verify_constraints(solution.robot, right)
+    shown = right["qdd_forward"]
+    assert isinstance(shown, Matrix)
+    with pytest.raises(VerificationError):
+        wrong = Matrix((shown.rows[0], tuple(map(Negative, shown.rows[1]))))
+        verify_constraints(solution.robot, {**right, "qdd_forward": wrong})
+    on_it = '["x*(g*y - xdot^2 - ydot^2)/l^2", "(-g*x^2 - y*(xdot^2 + ydot^2))/l^2"]'
+    for written, verdict in ((on_it, "correct"), (on_it.replace("g*y", "2*g*y"), "wrong")):
+        (tmp_path / "answers.yaml").write_text(f"answers: {{qdd_forward: {written}}}\n", encoding="utf-8")
+        (found,) = dynsolve.check(text, tmp_path / "answers.yaml").answers
+        assert str(found.verdict) == verdict
+
+
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        (ELBOW + "constraints: [tip.x - c]\n", "constraints act, too"),
+        (ELBOW + "constraints: [tip.x - c, 2*tip.x - 2*c]\n", "follows from the others"),
         (CART.replace("l*sin(theta)", "l").replace("l*cos(theta)", "l"), "no inverse"),
     ],
 )
@@ -179,11 +221,11 @@ def test_what_is_not_derived_has_its_name_and_its_reason_in_the_summary() -> Non
 gravity: [0, -g, 0]
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
 masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
-constraints: [tip.y - h]
+constraints: [tip.y - h, 2*tip.y - 2*h]
 find: [qdd_forward]
 """
     told = " ".join(report(dynsolve.solve(held), Format.TEXT).decode().split())
-    assert ": not derived. The forces of the constraints act, too" in told
+    assert ": not derived. One constraint follows from the others" in told
 
 
 TELESCOPE = """
