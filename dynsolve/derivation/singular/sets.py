@@ -85,11 +85,11 @@ class Special(Struct, dict=True):
 class SingularSet(Struct, frozen=True):
     """Where a matrix of greatest rank `rank` has less: at any of the `alternatives`.
 
-    `minors` are the expressions that vanish there, all in one ring: those of the Jacobian, or of its
-    `core`, whose rank is less by `pivots`; `places` are their rows and columns.  `losses` are the rank and
-    what is lost at each alternative, `exist` what the parameters must satisfy for it to be there.  Where one
-    of the `special` polynomials in parameters is 0 there may be others, and with `may_be_others` for further
-    special parameters.
+    `minors` are the expressions that vanish there, all in one ring: those of the Jacobian, or, if its rows or
+    columns are dependent which are not 0, of its `core`, whose rank is less by `pivots`; `places` are their
+    rows and columns.  `losses` are the rank and what is lost at each alternative, `exist` what the
+    parameters must satisfy for it to be there.  Where one of the `special` polynomials in parameters is 0
+    there may be others, and with `may_be_others` for further special parameters.
     """
 
     rank: int
@@ -116,7 +116,8 @@ def singular_set(jacobian: Matrix) -> SingularSet | None:
     rank = _rank(rest)
     if rank is None:
         return None
-    is_full = pivots + rank == min(jacobian.shape)
+    moving = [sum(any(not e.is_zero for e in line) for line in of.rows) for of in (jacobian, jacobian.T)]
+    is_full = pivots + rank == min(moving)
     if is_full and minors_work(jacobian, pivots + rank) <= MOST_WORK:
         shown, placed = None, tuple(placed_minors(jacobian, pivots + rank))
     else:

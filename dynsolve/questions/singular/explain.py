@@ -39,7 +39,7 @@ from dynsolve.quantities import letters
 from dynsolve.questions.rates.explain import loads_along
 from dynsolve.questions.set_forms import vanishing
 from dynsolve.questions.singular.forms import SingularForms
-from dynsolve.questions.task.explain import determinant_way
+from dynsolve.questions.task.explain import determinant_way, zero_lines
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP
 
@@ -84,7 +84,8 @@ def _rank(context: Context, forms: SingularForms, found: SingularSet) -> Step:
     )
     working: tuple[Node, ...] = ()
     way, is_told = SILENT, False
-    text = "${J}$ is {rows}×{columns}, and its rank is at most {rank}. "
+    still = zero_lines(context.values[name]) if found.rank < min(rows, columns) else ""
+    text = f"${{J}}$ is {{rows}}×{{columns}}, and its rank is at most {{rank}}{f'; {still}' * bool(still)}. "
     if found.core is not None:
         text += (
             "Its rows may be turned among each other, as by other axes, and multiples of rows and columns "
@@ -271,12 +272,11 @@ def _elsewhere(loss: Loss) -> str:
     """That some motions of the task are impossible anyhow, which are not said to be lost there."""
     if not loss.impossible:
         return ""
-    anyhow = f"{loss.impossible} motion|motions is|are impossible in every configuration"
-    anyhow = agreeing(anyhow, loss.impossible)
-    if loss.everywhere < loss.impossible:
-        return f" {opened(anyhow)}, here {len(loss.directions)}."
-    beside = agreeing("Beside it|them", len(loss.here))
-    return f" {beside} {anyhow}."
+    lesser = loss.everywhere < loss.impossible
+    motions = f"{'more ' * (not lesser)}motion|motions is|are impossible in every configuration"
+    here = f", here {len(loss.directions)}" * lesser
+    count = "One" if loss.impossible == 1 else loss.impossible
+    return f" {count} {agreeing(motions, loss.impossible)}{here}."
 
 
 def _effort(robot: Robot) -> str:

@@ -12,7 +12,7 @@ from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.document.books import spong
-from dynsolve.document.sentences import Value, say
+from dynsolve.document.sentences import Value, opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step
@@ -149,10 +149,16 @@ def _determinant(context: Context) -> Step:
     shown = context.show(squared(context.values[name]))
     letter = letters.determinant(J, rows, columns)
     value = context.values["det"]
+    general, still = why, zero_lines(context.values[name])
+    if not isinstance(value, Skipped) and value.is_zero:
+        reason = f"{opened(still)}, so the" if still else "The"
+        why = (f"{reason} determinant is 0 in every configuration: the Jacobian has no inverse.",)
+        if rows != columns:
+            why = (*general, f" Here they are dependent in every configuration{f': {still}' * bool(still)}.")
     by_minors = not isinstance(value, Skipped) and context.form("det") != context.forms.products.form(value)
     way = (
         determinant_way(context, letter, context.values[name], context.form("det"))
-        if rows == columns
+        if rows == columns and not still
         else SILENT
     )
     return Step(
@@ -167,8 +173,18 @@ def _determinant(context: Context) -> Step:
         concluding=way.concluding,
         result=(equation(letter, context.form("det")),),
         detail=Detail.BRIEF,
+        hint=general,
         task=letter,
     )
+
+
+def zero_lines(matrix: algebra.Matrix) -> str:
+    """`column 3 is 0`: the columns, else the rows, that are 0 in every configuration; none of them: empty."""
+    for what, lines in (("column", matrix.T.rows), ("row", matrix.rows)):
+        zero = [str(k) for k, line in enumerate(lines, 1) if all(entry.is_zero for entry in line)]
+        if zero:
+            return agreeing(f"{what}|{what}s {and_joined(zero)} is|are 0", len(zero))
+    return ""
 
 
 def determinant_way(context: Context, letter: Node, matrix: algebra.Matrix, form: Node) -> Way:

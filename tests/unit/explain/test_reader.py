@@ -42,7 +42,7 @@ def in_one_line(problem: str) -> str:
 def test_what_is_lost_in_every_configuration_is_not_lost_in_a_singular_one_alone() -> None:
     text = in_one_line(SCARA + "find: [singular]")
     assert "orthogonal to 𝐰: that motion is lost" in text
-    assert "Beside it 2 motions are impossible in every configuration" in text
+    assert "2 more motions are impossible in every configuration" in text
 
 
 def test_a_target_pose_stands_in_a_display() -> None:

@@ -19,6 +19,8 @@ from dynsolve.notation.python import to_python
 from dynsolve.notation.tree_values import compile_trees
 from dynsolve.problem import read_problem
 from dynsolve.questions.singular.forms import SingularForms
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
 from tests.support import ROOT
 
 # -- singular configurations of arms whose Jacobians the literature discusses ------------------------
@@ -159,6 +161,16 @@ def test_a_motion_that_is_lost_is_possible_close_by(table: str) -> None:
         reached = J @ np.linalg.pinv(J)
         for w in np.array(compile_trees(lost).run(there)):
             assert np.allclose(reached @ w, w, atol=1e-3)
+
+
+def test_the_minors_of_a_jacobian_with_a_column_of_zeros_are_its_own() -> None:
+    """Joint 3 turns about the line through the tip: no entry of another matrix is told, nor a place."""
+    rows = "{theta: q1*, alpha: -90deg}, {theta: q2*, a: b, alpha: 90deg}, {theta: q3*, d: c}"
+    solution = dynsolve.solve(f"gravity: none\ndh: [{rows}]\nfind: [det, singular]\n")
+    text = " ".join(report(solution, Format.TEXT).decode().split())
+    assert "Column 3 is 0, so the determinant is 0 in every configuration" in text
+    assert "its rank is at most 2; column 3 is 0." in text and "turned among each other" not in text
+    assert "minor (rows 1, 2, columns 1, 2) = (b s₂ - c c₂)(c s₂ + b c₂)" in text
 
 
 def test_what_cannot_be_parted_is_not_said_to_be_lost() -> None:
