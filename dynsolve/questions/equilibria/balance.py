@@ -74,6 +74,23 @@ def is_impossible(robot: Robot, condition: Expr) -> bool:
     return _open_part(condition, never_zero(robot) | table_lengths(robot)).is_number
 
 
+def negative_in(robot: Robot, condition: Expr) -> tuple[str, Expr, Expr] | None:
+    """A name with factor and rest of a condition that it solves: it is negative, as these have one sign.
+
+    None where the condition may hold for positive parameters, or has several other names than masses and
+    lengths of the table.
+    """
+    positive = never_zero(robot) | table_lengths(robot)
+    names = [name for name in sorted(_names(robot, [condition])) if name not in positive]
+    if len(names) != 1:
+        return None
+    factor = robot.ring.coefficient(condition, names[0])
+    rest = condition - factor * robot.ring.symbol(names[0])
+    free = names[0] in _names(robot, [factor, rest])
+    is_held = any(is_positive(sign * factor) and is_positive(sign * rest) for sign in (1, -1))
+    return None if free or not is_held else (names[0], factor, rest)
+
+
 def exclude_each_other(robot: Robot, found: Sequence[Expr]) -> bool:
     """Whether conditions are found to hold together for no parameters, masses and lengths not being 0."""
     names = sorted(never_zero(robot) | table_lengths(robot))

@@ -10,7 +10,8 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.matrix import determinant, vstack
+from dynsolve.algebra.linear_systems import quotient
+from dynsolve.algebra.matrix import Matrix, determinant, vstack
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.existence import coordinates_in, quadratic_of, zeros_at_quarters
@@ -23,7 +24,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.given import in_units
 from dynsolve.explain.step import NOTED, Detail, Group, Line, Step, not_derived
-from dynsolve.explain.writing import agreeing, and_joined, as_row, is_small, listed, side_by_side
+from dynsolve.explain.writing import agreeing, and_joined, as_row, is_small, listed, scalar, side_by_side
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ONE,
@@ -36,7 +37,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.quantities import letters
-from dynsolve.questions.equilibria.balance import exclude_each_other, is_impossible
+from dynsolve.questions.equilibria.balance import exclude_each_other, is_impossible, negative_in
 from dynsolve.questions.equilibria.forms import EquilibriaForms
 from dynsolve.questions.equilibria.near import (
     DG,
@@ -538,6 +539,10 @@ def _balance(context: Context) -> Step:
         outcome = say(_UNBALANCED, never=listed(never))
     elif exclude_each_other(context.robot, found):
         outcome = (_EXCLUDING,)
+    elif negative := [*_negative(context, found)]:
+        outcome = say(
+            "As masses and lengths of the table are positive, {negative}.", negative=listed(negative)
+        )
     notes = () if shown else (("Gravity is what it should be for all values of the parameters.",),)
     return Step(
         id="balance",
@@ -557,6 +562,15 @@ def _balance(context: Context) -> Step:
         outcome=outcome,
         detail=Detail.BRIEF,
     )
+
+
+def _negative(context: Context, conditions: Sequence[Expr]) -> Iterator[Node]:
+    """d₁ = -m₂ l₁/m₁ < 0"""
+    for condition in conditions:
+        if (solved := negative_in(context.robot, condition)) is not None:
+            name, factor, rest = solved
+            value = context.forms.of(quotient(Matrix.column(condition.ring, [-rest]), factor))
+            yield Relation((Symbol(name), scalar(value), Number(0)), ("=", "<"))
 
 
 # -- hints -----------------------------------------------------------------------------------------

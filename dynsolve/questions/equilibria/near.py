@@ -10,6 +10,7 @@ from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.linear_systems import is_diagonal
 from dynsolve.algebra.matrix import Matrix, determinant
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.spaces import nullspace
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.document.books import GOLDSTEIN, SLOTINE_LI
@@ -92,14 +93,17 @@ def stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> St
         why = _energy_of_motion(context, say("Where the matrix of its second derivatives{flat}", flat=flat))
         working = (_shown_energy(context),)
     told = [
-        (point, _place(shown, point, case, shown.relations(one, case)))
-        for one, case, points in zip(found.alternatives, shown.equilibria, found.points, strict=True)
-        for point in _widest(points)
+        (point, _place(shown, point, case, shown.relations(one, case), is_among))
+        for one, case, every in zip(found.alternatives, shown.equilibria, found.points, strict=True)
+        for points in [_widest(every)]
+        for is_among in [len(points) > 1 and any(not point.values for point in points)]
+        for point in points
     ]
     more: Prose = ()
     lines: tuple[Line, ...] = ()
     if robot.questions.constraints:
         told, more = _of_constrained(told, all(found.points))
+        more = (_INDIFFERENT,) if more and not told and _is_level(context) else more
         meeting = [point.is_crossing for point, _ in told]
         along = say(_ALONG_FREE, what="it" if steady else "the energy", curved=_curved(robot))
         why = _energy_of_motion(context, along) if steady else (*along, _CONSTRAINED_ENERGY)
@@ -117,8 +121,9 @@ def stability(context: Context, shown: EquilibriaForms, found: Equilibria) -> St
     if any(point.is_told for point, _ in told) and not is_definite(context):
         sentences.append(say(_DEFINITE))
     slid = held_by_friction(robot)
-    if slid and any(point.stability is not Stability.STABLE for point, _ in told):
-        holds = not robot.questions.constraints and _can_hold(context, curved, slid)
+    falls = any(point.stability is not Stability.STABLE for point, _ in told)
+    if slid and told and (falls or any(not forces[k, 0].is_zero for k in slid)):
+        holds = falls and not robot.questions.constraints and _can_hold(context, curved, slid)
         sentences.append(say(_NOT_HELD, held=_CAN_HOLD if holds else ""))
     return Step(
         id="equilibria_stability",
@@ -182,6 +187,20 @@ def _of_constrained(
     return known, (f"How stable {'the others' if known else 'they'} are is not told here.",)
 
 
+_INDIFFERENT = (
+    "The potential energy does not change along what the constraints leave free: every configuration that "
+    "they allow is an equilibrium, and all are indifferent."
+)
+
+
+def _is_level(context: Context) -> bool:
+    """Whether no motion that the constraints allow changes the potential energy, Zᵀ g = 0 everywhere."""
+    robot = context.robot
+    if is_steady(robot) or len(wanted_rows(robot)) < robot.n:
+        return False
+    return (nullspace(context.values["Ac"]).T @ forces_in_balance(context)).is_zero
+
+
 _ALONG_FREE = (
     "Along what the constraints leave free, the columns of $𝐙$ with $𝐀_c 𝐙 = 𝟎$, {what} is curved as "
     "{curved} is, with the $𝛌$ of the equilibrium. Where that"
@@ -217,20 +236,26 @@ def _along(shown: EquilibriaForms, point: Point, place: Prose) -> Iterator[Line]
         yield Line(say("{place}:", place=place), told, is_kept=True)
 
 
-def _place(shown: EquilibriaForms, point: Point, case: tuple[Node, ...], told: Sequence[Node]) -> Prose:
-    """At q₁ = -90°, q₂ = 0; in a case what is `told` of it is not told once more."""
+def _place(
+    shown: EquilibriaForms, point: Point, case: tuple[Node, ...], told: Sequence[Node], is_among: bool
+) -> Prose:
+    """At q₁ = -90°, q₂ = 0; in a case what is `told` of it is not told once more.
+
+    It `is_among` others of its case that are told together: what holds in all of these holds there, too.
+    """
     names = [q.name for q in shown.robot.coordinates]
-    at = []
+    cases, at, alone = shown.equilibria, [], set[Angle]()
     for angle, degrees in turned(point.values):
         moving, fixed = by_coordinates(angle, names)
+        alone |= {moving} if len(moving.terms) == 1 else set()
         at.append(equation(angle_node(moving, names), angle_node(fixed + Angle(degrees=degrees))))
-    if at and len(at) == len(case):
-        return ("At ", side_by_side(at))
+    if at and (len(at) == len(case) or len(alone) == len(names)):
+        return ("In the equilibrium " if is_among and len(cases) == 1 else "At ", side_by_side(at))
     if not case:
         return ("In every configuration",)
-    cases = shown.equilibria
     at = [one for one in at if one not in told]
-    among = "In equilibrium" if len(cases) == 1 else f"In case {cases.index(case) + 1}"
+    one = "In every equilibrium" if is_among and not at else "In equilibrium"
+    among = one if len(cases) == 1 else f"In case {cases.index(case) + 1}"
     return (among, " at ", side_by_side(at)) if at else (among,)
 
 

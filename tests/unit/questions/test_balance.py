@@ -13,6 +13,8 @@ from dynsolve.explain.forms import Forms
 from dynsolve.problem import read_problem
 from dynsolve.questions.equilibria.check import verify_balance
 from dynsolve.questions.equilibria.forms import EquilibriaForms
+from dynsolve.render.files import Format
+from dynsolve.solution.reports import report
 
 ARM = """
 gravity: [0, -g, 0]
@@ -49,6 +51,14 @@ def test_by_hand(problem: str, conditions: set[str]) -> None:
 def test_what_asks_for_a_length_of_the_table_to_be_0_cannot_be(problem: str, is_possible: bool) -> None:
     (step,) = (step for step in dynsolve.solve(problem).steps if step.id == "balance")
     assert ("cannot hold" in str(step.outcome)) is not is_possible
+
+
+def test_what_must_be_negative_is_told() -> None:
+    """A counterweight: the mass centre of link 1 is behind its axis."""
+    text = report(dynsolve.solve(ARM), Format.TEXT).decode()
+    assert text.count("As masses and lengths of the table are positive, d₁ = -m₂ l₁/m₁ < 0.") == 2
+    both = ARM.replace("[d1, 0, 0]", "[d1 - e1, 0, 0]")
+    assert "lengths of the table are positive, d" not in report(dynsolve.solve(both), Format.TEXT).decode()
 
 
 @pytest.mark.parametrize(

@@ -1270,6 +1270,7 @@ find: [equilibria]
 """
     friction = spring.replace("find:", "friction: {x: {coulomb: fc}}\nfind:")
     assert "equilibria are where -f_c ≤ k x ≤ f_c." in read(friction)
+    assert "In equilibrium: stable. All this is without Coulomb friction." in read(friction)
     assert "Coulomb" not in read(spring)
     slide = "model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}"
     both = re.sub("model: .*", slide, friction).replace("of: x}", "of: x}, {stiffness: k, rest: d, of: y}")
