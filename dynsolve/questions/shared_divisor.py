@@ -8,13 +8,16 @@ from fractions import Fraction
 
 from msgspec import Struct
 
+from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.linear_systems import FractionMatrix, content, fraction_of
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.ring_values import with_symbols
+from dynsolve.algebra.sampling import Transfer
 from dynsolve.explain.forms import ProductForms
 from dynsolve.explain.step import Line
-from dynsolve.notation.tree import NAMED, Node, Relation, equation
+from dynsolve.notation.tree import NAMED, Node, Relation, Symbol, equation, mapped
 from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.quantities import letters
 
@@ -61,12 +64,30 @@ class SharedDivisor(Struct, frozen=True):
         return MatrixTree(tuple(tuple(map(self._entry, *both)) for both in rows))
 
     def _entry(self, one: RationalExpr, form: Node) -> Node:
-        ratio = None if one.divisor is None else _ratio(self.value, one.divisor)
-        if ratio is None:
+        rest = None if one.divisor is None else one.divisor.quotient(self.value)
+        if rest is None:
             return form
+        times, left = (Expr(rest.ring, part) for part in divmod(one.numerator.poly, self.value.poly))
+        if not rest.is_number or len(times) + len(left) < len(one.numerator):
+            return self._with_letter(times, left, rest)
+        ratio = 1 / rest.number
         above = one.numerator * ratio
         number = 1 if self.products.decimal else content([above]).denominator
         return self.products.over(above * number, number, (letters.DIVISOR, 1))
+
+    def _with_letter(self, times: Expr, left: Expr, rest: Expr) -> Node:
+        """(times Δ + left)/(rest Δ), with the letter above, too, where it stands there."""
+        ring = with_symbols(self.value.ring, [_NAME])
+        put, letter = Transfer(self.value.ring, ring), ring.symbol(_NAME)
+        shorter = len(times) + len(left) < len(times * self.value + left)
+        above = put(times) * (letter if shorter else put(self.value)) + put(left)
+        forms = ProductForms(Compactor(ring), decimal=self.products.decimal)
+        shown = forms.of(RationalExpr(above, put(rest) * letter))
+        return mapped(shown, lambda node: letters.DIVISOR if node == Symbol(_NAME) else node)
+
+
+_NAME = "shared divisor"
+"""Of the letter in a ring: no parameter has such a name."""
 
 
 def shared_divisor(

@@ -93,6 +93,12 @@ def test_the_inertia_of_a_task_is_told_with_the_poses_in_which_there_is_one() ->
     text = f"gravity: none\ndh: [{rows}]\nmasses: [{{mass: m, link: 3}}]\nfind: [Lambda]\n"
     told = report(dynsolve.solve(text), Format.TEXT).decode()
     assert told.count("It exists where q₃ c₂ ≠ 0.") == 2
+    spare = "gravity: none\ndh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]\n"
+    spare += "masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]\n"
+    told = report(dynsolve.solve(spare + "task: [tip.x, tip.y]\nfind: [Lambda]\n"), Format.TEXT).decode()
+    assert told.count("the rows of 𝐉_r are independent: not where s₃ = 0 and s₂ = 0.") == 2
+    told = report(dynsolve.solve(spare + "task: [q1 + q2 + q3]\nfind: [Lambda]\n"), Format.TEXT).decode()
+    assert "𝚲 = " in told and "xists" not in told
 
 
 @pytest.mark.parametrize(("text", "name"), [(ARM, "linear_A"), (ARM, "linear_B"), (RODS, "Lambda")])
@@ -268,3 +274,20 @@ def test_at_every_depth_the_name_is_told_before_it_is_used(detail: str) -> None:
     assert before.endswith("=: ") or after.startswith(r" = \text{det }")
     assert r"\Theta}" in after
     assert detail != "full" or "divided by" in after.split("Notation")[-1]
+
+
+def test_the_shared_divisor_stands_wherever_it_is() -> None:
+    """A pendulum with a wheel: below beside J₂, and above in m₁ c₁² + m₂ l₁² + J₁ + J₂."""
+    wheel = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {q1: revolute, q2: revolute}
+  bodies:
+    - {mass: m1, at: [c1*sin(q1), c1*cos(q1), 0], turn: -q1, inertia: {zz: J1}}
+    - {mass: m2, at: [l1*sin(q1), l1*cos(q1), 0], turn: -q1 - q2, inertia: {zz: J2}}
+friction: {q2: b}
+linearize: {q1: 0, q2: 0}
+find: [linear_A, linear_B]
+"""
+    told = report(dynsolve.solve(wheel), Format.TEXT).decode().partition("Summary")[2]
+    assert "-b (J₂ + Δ)/(J₂ Δ)" in told and told.count("m₁ c₁² + m₂ l₁² + J₁") == 1
