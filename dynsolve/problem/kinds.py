@@ -371,6 +371,11 @@ class Fields:
         """The value of a key, None where it is not given."""
         return self._values.get(key)
 
+    def refuse(self, key: str) -> None:
+        """Take out a key that was reported, so that nothing more is said of it."""
+        self._meant.add(key)
+        del self._values[key]
+
     def key_span(self, key: str) -> Span:
         """Where a key stands; where it does not, the mapping."""
         return self._keys[key].span if key in self._keys else self.span

@@ -384,8 +384,9 @@ class Candidates(Struct, frozen=True):
 def read_candidates(faults: Faults, fields: Fields, coordinates: Mapping[str, str]) -> Candidates:
     """The matrices of a file and what is assumed; everything wrong with them is reported."""
     before = len(faults.errors)
-    matrices = dict(_read_matrices(faults, fields.get("candidates"), len(coordinates)))
-    assumed = _read_assumed(faults, fields.get("assume"), matrices)
+    found = dict(_read_matrices(faults, fields.get("candidates"), len(coordinates)))
+    matrices = {name: rows for name, rows in found.items() if rows is not None}
+    assumed = _read_assumed(faults, fields.get("assume"), found)
     decoder = Decoder(faults, coordinates, 0)
     decoder.keep(cell for rows in matrices.values() for row in rows for cell in row)
     sides = (side for every in assumed.values() for one in every for side in (one.left, one.right))
@@ -397,7 +398,8 @@ def read_candidates(faults: Faults, fields: Fields, coordinates: Mapping[str, st
 
 def _read_matrices(
     faults: Faults, node: YamlNode | None, n: int
-) -> Iterator[tuple[str, tuple[tuple[Cell, ...], ...]]]:
+) -> Iterator[tuple[str, tuple[tuple[Cell, ...], ...] | None]]:
+    """Each by its name; None of one that is faulty."""
     if not isinstance(node, MappingNode):
         if node is not None and not isinstance(node, FaultyNode):
             faults.error(node.span, f"candidates are matrices by name, not {describe(node)}", CANDIDATES.help)
@@ -412,9 +414,7 @@ def _read_matrices(
             at = key.start + error.offset
             faults.error((at, at + error.length), error.message, error.help)
             continue
-        rows = read_square(faults, value, name, n, CANDIDATES.help) if n else None
-        if rows is not None:
-            yield name, rows
+        yield name, read_square(faults, value, name, n, CANDIDATES.help) if n else None
 
 
 def _read_assumed(

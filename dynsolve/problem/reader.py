@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem.base import NO_BASE, NO_GRAVITY, Framed, read_base, read_gravity
@@ -236,13 +237,15 @@ def _gravity(faults: Faults, fields: Fields, table: DHTable, model: Model | None
 
 def _model(faults: Faults, fields: Fields) -> Model:
     """The model in the place of a table; keys that need a table are reported."""
-    for key in OF_A_TABLE:
-        if key in fields:
-            message = f"`{key}` stands beside `model`, which has no table"
-            faults.error(fields.key_span(key), message, "delete it, or give a `dh` table in place of `model`")
+    refused = [key for key in OF_A_TABLE if key in fields]
+    for key in refused:
+        message = f"`{key}` stands beside `model`, which has no table"
+        faults.error(fields.key_span(key), message, "delete it, or give a `dh` table in place of `model`")
+        fields.refuse(key)
     from dynsolve.problem.mechanism import read_model
 
-    return read_model(faults, fields.get("model"))
+    model = read_model(faults, fields.get("model"))
+    return replace(model, faulty=model.faulty or bool(refused))  # which answers there would be is not known
 
 
 def _candidates(faults: Faults, fields: Fields, coordinates: Mapping[str, str]) -> Candidates | None:

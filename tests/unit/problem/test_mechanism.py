@@ -130,3 +130,11 @@ def test_coordinates_of_a_table_may_be_given_with_their_types() -> None:
     assert [q.name for q in read_problem(text).robot.coordinates] == ["d2", "q1"]
     wrong, wanted = unmarked(text.replace("q1: revolute", "q1: «prismatic»"))
     assert places(errors(wrong)) == wanted
+
+
+def test_of_what_was_refused_nothing_more_is_said() -> None:
+    asked = "«task»: [x]\n«velocity»: [v]\n«weights»: D\nfind: [qd]\n"
+    text, wanted = unmarked(f"gravity: none\n{body(BALL)}{asked}")
+    assert places(errors(text)) == wanted
+    text, wanted = unmarked(f"{TWO}candidates: {{M: «[[a]]»}}\nassume: {{M: [a > 0]}}\n")
+    assert places(errors(text)) == wanted
