@@ -46,5 +46,5 @@ def sanity_steps(context: Context) -> Iterator[Step]:
     """The checks that speak of a robot."""
     for check in CHECKS if context.is_short else CHECKS_OF_LONGER_ARMS:
         step = check(context)
-        if step is not None:
+        if step is not None and step.id not in context.wanted:  # that is a question's
             yield replace(step, detail=Detail.FULL)

@@ -7,7 +7,7 @@ from dynsolve.quantities.stages import Stage
 
 DEFINITE = Family(
     name="definite",
-    called="which of the matrices can be inertia matrices",
+    called="whether a matrix can be an inertia matrix",
     stage=Stage.DEFINITE,
     kind=Kind.VERDICTS,
     spellings=("positivedefinite", "posdef"),

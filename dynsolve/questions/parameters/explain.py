@@ -134,9 +134,11 @@ def _parameters(context: Context, linear: _Linear, group: Group) -> Step:
     if known:
         of_known = (*listed(list(map(Symbol, known))), f" count{'s' * (len(known) == 1)} as known. ")
     count = len(value.rows)
-    fewest = (
-        f"Fewer than {count} entries are not enough: that is the rank of the forces over motions and "
+    fewest = say(
+        f"Fewer than {count} entries are not enough: that is the rank of {{forces}} over {{motions}} and "
         "parameters.",
+        forces=linear.forces,
+        motions="configurations" if linear.Y == "Yg" else "motions",
     )
     return Step(
         id=linear.a,

@@ -49,12 +49,17 @@ _MIXED: Prose = (
 def given(forms: Forms) -> Iterator[Prose]:
     """What the task is to do, and the weights."""
     questions = forms.robot.questions
-    for dots, value in ((1, questions.velocity), (2, questions.acceleration)):
-        if value is not None:
-            wanted = equation(
-                letters.bold("r", dots=dots), of_task(forms, map(forms.of, value.entries), dots)
-            )
-            yield (f"The task is to have the {'velocity' if dots == 1 else 'acceleration'} ", wanted, ".")
+    asked = {
+        called: equation(letters.bold("r", dots=dots), of_task(forms, map(forms.of, value.entries), dots))
+        for dots, called, value in (
+            (1, "velocity", questions.velocity),
+            (2, "acceleration", questions.acceleration),
+        )
+        if value is not None
+    }
+    if asked:
+        wanted = listed([(f"the {called} ", value) for called, value in asked.items()])
+        yield ("The task is to have ", *wanted, ".")
     if questions.weights is not None:
         yield ("The weights are ", equation(letters.WEIGHTS, forms.of(questions.weights)), ".")
     elif questions.weighs_by_inertia:
@@ -161,12 +166,15 @@ class _System:
             one=say("this is the one {least}", least=least),
             none=() if self.solvable else _none(self.context, self.J, self.right),
             normal=formula("𝐉_rᵀ 𝐉_r {x} = 𝐉_rᵀ {b}", x=self.x, b=self.in_product),
+            x=self.x,
         )
 
     def _how(self) -> Prose:
         """Which solution is meant, what gives it, and where it holds."""
         rank, columns = self.rank, self.columns
         how = say(" {meant} ", meant=self._meant())
+        if rank < columns and self.context.robot.questions.weighs_by_inertia:
+            how += say("The weights are the inertia matrix, which is derived below. ")
         if rank < columns and rank < self.rows:
             how += say("The pseudoinverse {pseudo} gives it. ", pseudo=self._pseudoinverse)
         if (
@@ -204,7 +212,8 @@ class _System:
             given.insert(0 if self.name == "qd" else 1, equation(_J, show(J)))
         yield from given
         if self.rank < self.columns and self.weights is not None:
-            yield equation(letters.WEIGHTS, show(self.weights))
+            of = (letters.D,) * self.context.robot.questions.weighs_by_inertia
+            yield equation(letters.WEIGHTS, *of, show(self.weights))
         elif self.rank in J.shape and self.rank and work(squared(J)) <= MOST_PRODUCTS:
             yield equation(letters.determinant(_J, *J.shape), show(determinant(squared(J))))
         if self.rank < min(J.shape) and not self.solvable:
@@ -216,7 +225,7 @@ class _System:
 
 _UNSEEN = "Every motion of the joints that the task does not see may be added: ${x}$ with $𝐉_r {x} = 𝟎$."
 _MANY_NEAREST = (
-    "has {none}{rank}; many come nearest to one, in the sense of least squares, those with {normal}: {one}."
+    "has {none}{rank}. All ${x}$ with {normal} come nearest to one, in the sense of least squares; {one}."
 )
 
 
