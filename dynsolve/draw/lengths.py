@@ -246,7 +246,7 @@ _WORLD_FRAME_HEAD = 6.0
 _PARTS = (0.5, 0.35, 0.65)
 """Where along that arc its name may stand."""
 
-TWISTS = "A black arc is an angle of the table between two axes, from a grey line parallel to the first."
+TWISTS = "A black arc is the angle between two axes, from a grey line parallel to the first."
 WORLD = "The frame of the world has the index w."
 ASIDE = "It is drawn beside the arm, and begins at 𝐨₀."
 SAME = "Frame 0 is that of the world."
@@ -337,18 +337,17 @@ def angle_between(
     notes.label(name, anchors, from_to(at, anchors[0]), paths.BLACK, "angle")
 
 
-def twists(robot: Robot, pose: Pose) -> list[tuple[Vector, Vector, Vector, float, Node]]:
+def twists(robot: Robot, pose: Pose, frames: bool = True) -> list[tuple[Vector, Vector, Vector, float, Node]]:
     """The angles of a table that joints do not turn, but for right angles, as `angle_between` has them.
 
-    That is α between the z axes, and θ between the x axes of a row that is no revolute joint.
+    That is α between the z axes and, with `frames`, θ between the x axes of a row that is no revolute joint.
     """
     found = list[tuple[Vector, Vector, Vector, float, Node]]()
-    frames = pose.skeleton.frames
     for joint, leg in zip(robot.joints, pose.skeleton.legs, strict=True):
         about = leg.after if robot.convention is Convention.STANDARD else leg.before
-        before, after = frames[joint.parent], frames[joint.index]
+        before, after = (pose.skeleton.frames[k] for k in (joint.parent, joint.index))
         pairs = [(before.z, after.z, about, joint.written[3])]
-        if joint.variable != "theta":
+        if frames and joint.variable != "theta":
             pairs.append((leg.before, leg.after, leg.axis, joint.written[0]))
         for first, second, axis, node in pairs:
             side = cross(axis, first)

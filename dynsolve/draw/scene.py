@@ -206,7 +206,7 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     if has_world(robot, values):
         under = (*world_frame(robot, values, pose, notes), *under)
     joint_angles(pose, names_of_angles(robot), notes)
-    for twist in twists(robot, pose):
+    for twist in twists(robot, pose, frames):
         angle_between(*twist, pose.view, notes)
     springs(robot, values, pose, notes)
     poses.motors(robot, values, pose, notes)
@@ -219,6 +219,8 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     lengths = [*row_lengths(robot, pose), *moves(robot, values), *held.lengths]
     given = given_lengths(problem, values, pose, [each.node for each in lengths])
     notes.draw(*ways_beside(given, pose), behind=True)
+    if given and not frames:  # what the table has in the place of the letters is sought
+        lengths = [each for each in lengths if each.varies or isinstance(each.node, Symbol)]
     lengths += given
     dimensions([*lengths, *_center_lengths(pose)], pose, notes)
     if is_aside(robot, values, problem.normals is not None):
@@ -265,13 +267,13 @@ def _caption(
     same_axis = f"{turned_about}₀, about which the base is turned, is that of the world, too."
     said = (
         (WORLD, has_world(robot, values) or aside),
-        (ASIDE, aside),
-        (SAME, is_drawn and values.base == IDENTITY and not has_world(robot, values)),
+        (ASIDE, aside and frames),
+        (SAME, frames and is_drawn and values.base == IDENTITY and not has_world(robot, values)),
         (same_axis, has_world(robot, values) and len(robot.base_turns) == 1),
         (_parallel(dashed), bool(dashed)),
         (OFFSETS, bool(offsets(pose))),
         (CORNERS, any(map(is_right, offsets(pose)))),
-        (TWISTS, bool(twists(robot, pose))),
+        (TWISTS, bool(twists(robot, pose, frames))),
         (RINGS, has_rings(pose)),
         (SHAPES, any(path.fill in astuple(BODY) for path in body)),
         (POINTS, any(mass.is_point for mass in pose.skeleton.masses)),

@@ -9,6 +9,7 @@ import pytest
 from dynsolve.draw.drawn_points import as_drawn, given_lengths
 from dynsolve.draw.lengths import ASIDE, SAME, WORLD
 from dynsolve.draw.pose_search import best_pose
+from dynsolve.draw.scene import scene
 from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.draw.vectors import ORIGIN
 from dynsolve.notation.unicode import to_unicode
@@ -76,3 +77,12 @@ def test_the_axes_of_the_world_are_shown_once(robot: str, axes: list[str], said:
     picture = drawn_text(robot)
     assert [name for name in names(picture, "axis") if name.endswith("w")] == axes
     assert [each for each in (SAME, WORLD, ASIDE) if each in picture.caption] == said
+
+
+def test_a_sheet_that_asks_for_the_table_shows_the_given_letters_in_its_place() -> None:
+    problem = read_problem(BENT.encode(), "drawing.yaml")
+    assert "√2 h/2 + b" in names(scene(problem), "length")
+    sheet = scene(problem, frames=False)
+    assert sorted(names(sheet, "length")) == ["b", "h", "l"] and SAME not in sheet.caption
+    leaning = scene(read_problem(LEANING.encode(), "drawing.yaml"), frames=False)
+    assert WORLD in leaning.caption and ASIDE not in leaning.caption

@@ -187,6 +187,14 @@ def test_an_angle_of_the_table_that_no_joint_turns_is_marked(arm: str, angles: l
     assert (TWISTS in picture.caption) is bool(angles)
 
 
+def test_without_frames_only_what_is_between_joint_axes_is_marked() -> None:
+    rows = "{theta: 20deg, d: q1*, alpha: 45deg}, {theta: q2*, a: a2}"
+    problem = read_problem(f"dh: [{rows}]\n".encode(), "twisted.yaml")
+    found = [scene(problem, frames=frames).labels for frames in (True, False)]
+    angles = [[to_unicode(x.node) for x in labels if x.kind == "angle"] for labels in found]
+    assert angles == [["45°", "20°"], ["45°"]]
+
+
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 def test_a_twist_leads_from_one_z_axis_to_the_next(convention: str) -> None:
     rows = "{theta: q1*, d: d1, a: a1, alpha: -50deg}, {theta: q2*, a: a2, alpha: 30deg}"
