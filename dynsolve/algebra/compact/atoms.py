@@ -152,6 +152,7 @@ class RingAtoms:
         self._places = dict(zip(ring.ctx.names(), of_generators, strict=False))
         self._factors: dict[str, tuple[int, _Products]] = {}
         self._trig: dict[tuple[int, int], tuple[int, Monomial]] = {}
+        self._basic: dict[tuple[int, Exponents], tuple[int, Monomial]] = {}
         self._functions: dict[int, tuple[str, Angle]] = {}
         self._of_functions: dict[tuple[str, Angle], int] = {}
         self._adds_angles = any(
@@ -268,8 +269,14 @@ class RingAtoms:
             parts.append((atom, e))
         return sign, tuple(sorted(parts))
 
-    def basic_trig_monomial(self, exponents: Sequence[int], group: int) -> tuple[int, Monomial]:
+    def basic_trig_monomial(self, exponents: Exponents, group: int) -> tuple[int, Monomial]:
         """The same of exponents of sines and cosines, in turn, of a group's basic angles."""
+        found = self._basic.get((group, exponents))
+        if found is None:
+            found = self._basic[group, exponents] = self._basic_monomial(exponents, group)
+        return found
+
+    def _basic_monomial(self, exponents: Exponents, group: int) -> tuple[int, Monomial]:
         count = len(exponents) // 2
         mono = [
             ((("sin", "cos")[place % 2], tuple(int(j == place // 2) for j in range(count))), e)

@@ -120,17 +120,21 @@ class Collector:
 
     def factored(self, poly: Polynomial) -> Node:
         """The collected tree of a polynomial, or the product of sums that it is, where that is shorter."""
-        plain = self.form(poly)
+        plain, product = self.form(poly), self.product_of_sums(poly)
+        return plain if product is None else min(plain, product, key=self.cost)
+
+    def product_of_sums(self, poly: Polynomial) -> Node | None:
+        """The product of sums that a polynomial is; None where it is none."""
         factors = factors_of(poly) if len(poly) >= SMALLEST_PRODUCT else ()
         if not factors or (self.decimal and not all(self._is_legible(part) for part, _ in factors)):
-            return plain
+            return None
         factor: Rational = 1
         mono: Monomial = ()
         for part, exponent in factors:
             own, atoms = self.whole(part)
             factor *= own**exponent
             mono = multiply(mono, tuple((atom, e * exponent) for atom, e in atoms))
-        return min(plain, self.product(factor, mono, ()), key=self.cost)
+        return self.product(factor, mono, ())
 
     def whole(self, poly: Polynomial, beside: int = 0) -> tuple[Rational, Monomial]:
         """A polynomial as (factor, monomial), a sum with whole numbers as one atom: ½ and (2 q̇₁ + q̇₂).

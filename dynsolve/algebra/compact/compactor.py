@@ -12,11 +12,11 @@ from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
-from itertools import accumulate
+from itertools import accumulate, chain
 from operator import mul
 
 from dynsolve.algebra.compact.atoms import Rank, RingAtoms
-from dynsolve.algebra.compact.collect import Collector
+from dynsolve.algebra.compact.collect import SMALLEST_PRODUCT, Collector
 from dynsolve.algebra.compact.proof import Proof, plain_form
 from dynsolve.algebra.compact.spelling import in_one_spelling
 from dynsolve.algebra.compact.terms import (
@@ -26,19 +26,21 @@ from dynsolve.algebra.compact.terms import (
     Monomial,
     Parts,
     Polynomial,
+    Product,
     Rational,
     Terms,
     add_term,
     common,
     divide,
     exact,
+    homogeneous,
     multiply,
     primitive,
     split_at,
     square_in,
     whole_content,
 )
-from dynsolve.algebra.compact.trig_forms import angle_groups
+from dynsolve.algebra.compact.trig_forms import AngleGroup, angle_groups
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import has_value, value_of
@@ -61,6 +63,9 @@ MOST_SIZES = 24
 
 HIGHEST_POWER = 8
 """Up to this power sums that were typed are found again."""
+
+MOST_OF_PRODUCT = 20
+"""Up to this number of terms products of sums are looked for: of PUMA 560 none has more than ten."""
 
 LARGE = 60
 """From this number of terms on one way of collecting is tried and not two."""
@@ -442,8 +447,7 @@ class Compactor:
         if squared is not None and cost(squared) <= cost(best):
             best = squared
         completed = self._with_square(terms, completed=True)
-        inside = self._squares_inside(terms)
-        for other in (completed, inside):
+        for other in (completed, self._squares_inside(terms), self._product_of_sums(terms)):
             if other is not None and cost(other) < cost(best):
                 best = other
         return best if size == 1 else self.collector.product(size, (), (best,))
@@ -489,6 +493,42 @@ class Compactor:
         return self.collector.sum_of(
             [(number, mono, tree.ONE), (1, (), self._by_angles(rest) if rest else ZERO)]
         )
+
+    def _product_of_sums(self, terms: Terms) -> Node | None:
+        """(a₂ s₂ + a₃ s₂₃)(e + a₂ c₂ + a₃ c₂₃), where sines and cosines of basic angles make a product."""
+        groups = self._groups[len(self._groups) - len(next(iter(terms))) - MASSES :]
+        if (
+            len(terms) < SMALLEST_PRODUCT
+            or len(terms) > MOST_OF_PRODUCT
+            or any(e[MASSES] or e[RATES] for e in terms)
+        ):
+            return None
+        if any(
+            number and len(group.places) % 2 for e in terms for group, number in zip(groups, e, strict=False)
+        ):
+            return None  # a constant angle, of which the cosine alone is known
+        written: dict[Product, Rational] = {}
+        for e, f in terms.items():
+            trig = chain.from_iterable(group.powers.values[n] for group, n in zip(groups, e, strict=False))
+            written[tuple(trig), self._atoms.monomials.values[e[SYMBOLS]]] = f
+        for one in (written, homogeneous(written)):
+            product = self.collector.product_of_sums(self._in_atoms(one, groups)) if one else None
+            if product is not None:
+                return product
+        return None
+
+    def _in_atoms(self, written: Mapping[Product, Rational], groups: Sequence[AngleGroup]) -> Polynomial:
+        """A polynomial in sines and cosines of the basic angles of some groups, in atoms."""
+        poly: Polynomial = {}
+        for (trig, mono), f in written.items():
+            start = 0
+            for group in groups:
+                own = trig[start : start + len(group.places)]
+                start += len(own)
+                sign, atoms = self._atoms.basic_trig_monomial(own, self._groups.index(group))
+                mono, f = multiply(mono, atoms), sign * f
+            poly[mono] = f
+        return poly
 
     # -- angle groups from the base outwards -------------------------------------------------------
 

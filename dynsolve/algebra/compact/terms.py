@@ -21,7 +21,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from math import gcd, isqrt, lcm
+from math import comb, gcd, isqrt, lcm
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
@@ -257,6 +257,29 @@ class Square(NamedTuple):
 
     roots: tuple[Root, ...]
     rest: dict[Product, Rational]
+
+
+def homogeneous(terms: Mapping[Product, Rational]) -> dict[Product, Rational] | None:
+    """A polynomial with s² + c² for 1 wherever terms are of lower degree in a pair; None where none is.
+
+    As the factors of (a s + b c)(a c - b s) = (a² - b²) s c + a b (2c² - 1) are found: a b (c² - s²).
+
+    >>> homogeneous({((1, 1), ()): 3, ((0, 2), ()): 2, ((0, 0), ()): -1})
+    {((1, 1), ()): 3, ((0, 2), ()): 1, ((2, 0), ()): -1}
+    """
+    found, raised = dict(terms), False
+    for j in range(0, len(next(iter(terms))[0]), 2):
+        degrees = {trig[j] + trig[j + 1] for trig, _ in found}
+        most = max(degrees)
+        if len(degrees) == 1 or any((most - degree) % 2 for degree in degrees):
+            continue
+        raised, before, found = True, found, {}
+        for (trig, symbols), f in before.items():
+            lacking = (most - trig[j] - trig[j + 1]) // 2
+            for k in range(lacking + 1):
+                own = (*trig[:j], trig[j] + 2 * k, trig[j + 1] + 2 * (lacking - k), *trig[j + 2 :])
+                add_term(found, (own, symbols), comb(lacking, k) * f)
+    return found if raised else None
 
 
 def square_in(terms: Mapping[Product, Rational], *, completed: bool = False) -> Square | None:
