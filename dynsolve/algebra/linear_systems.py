@@ -19,7 +19,7 @@ A basis of a space (`spaces`) is a matrix whose columns span it; of {0} it has n
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence, Set
 from fractions import Fraction
 from itertools import combinations
 from math import gcd, lcm
@@ -29,6 +29,7 @@ from msgspec import Struct
 from dynsolve.algebra.fraction import RationalExpr, cancelled, equal, is_zero
 from dynsolve.algebra.lowest_terms import without_shared
 from dynsolve.algebra.matrix import Matrix, determinant
+from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
 
 
@@ -235,6 +236,34 @@ def content(values: Iterable[Expr]) -> Fraction:
     """
     numbers = [number for value in values for number in value.poly.coeffs()]
     return Fraction(gcd(*(int(n.p) for n in numbers)), lcm(*(int(n.q) for n in numbers)))
+
+
+MOST_DIGITS = 6
+"""What has more is printed rounded."""
+
+
+def decimal_content(values: Iterable[Expr], typed: Set[Fraction] = frozenset()) -> Fraction:
+    """The number that leaves coefficients of the fewest digits, but for those of numbers that were typed.
+
+    >>> from dynsolve.algebra.ring_values import build_ring
+    >>> from dynsolve.notation.tree import Symbol
+    >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
+    >>> a, b = ring.symbol("a"), ring.symbol("b")
+    >>> decimal_content([981 * a + 100 * b]), decimal_content([3 * a + 4 * b])
+    (Fraction(100, 1), Fraction(1, 1))
+    """
+    values = list(values)
+    whole = content(values)
+    numbers = [abs(fraction(number)) / whole for value in values for number in value.poly.coeffs()]
+    ways = dict.fromkeys([*(Fraction(10) ** power for power in range(MOST_DIGITS)), *numbers])
+    return whole * min(ways, key=lambda way: sum(_digits(n / way) for n in numbers if n / way not in typed))
+
+
+def _digits(number: Fraction) -> int:
+    """How many digits are written of a positive number, none of 1."""
+    ends = next((k for k in range(MOST_DIGITS) if (number * 10**k).denominator == 1), MOST_DIGITS)
+    size = max(len(str(int(number * 10**ends))), ends + 1)
+    return 0 if number == 1 else min(size, MOST_DIGITS + 1)
 
 
 def same_span(one: Matrix, other: Matrix) -> bool:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.factors import is_positive, ratio, trig_factors, trig_quotient
 from dynsolve.algebra.inequality import Bound
-from dynsolve.algebra.linear_systems import content
+from dynsolve.algebra.linear_systems import content, decimal_content
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.explain.forms import ProductForms, leading_names, parallel_coordinates
 from dynsolve.notation.build import cost
@@ -42,8 +44,7 @@ class Inequalities:
             for shared, exponent in trig_factors(value):
                 if is_positive(shared):
                     value = trig_quotient(value, shared**exponent) or value
-        if not self.robot.has_decimals:
-            value = value / content([value])
+        value = value / self.content([value])
         left, right = self._apart(value)
         products = ProductForms(self.compactor(ring))
         squares = [products.form(one * one) for one in _squared(value)]
@@ -57,6 +58,11 @@ class Inequalities:
         elif left == ZERO:
             left, right, sign = right, left, _TURNED.get(sign, sign)
         return Relation((left, right), (sign,))
+
+    def content(self, values: Sequence[Expr]) -> Fraction:
+        """What is divided out: it leaves whole coefficients, or such as a model in numbers has."""
+        robot = self.robot
+        return decimal_content(values, robot.decimals) if robot.has_decimals else content(values)
 
     def _apart(self, value: Expr) -> list[Node]:
         """What is positive of a value, and what is negative, as formulas."""

@@ -36,9 +36,6 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.robot.model import Robot
 
-_MOST_WHOLE = 999
-"""Larger coefficients of a model in numbers are written as decimals."""
-
 
 class SetForms(Inequalities):
     """The formulas of sets of equations of one robot, by the names of their rules."""
@@ -80,7 +77,7 @@ class SetForms(Inequalities):
         return Matrix(tuple(tuple(map(form, row)) for row in values.rows))
 
     def condition(self, condition: Condition) -> Node:
-        """What is 0 where a condition holds, with whole coefficients but where the file has decimals."""
+        """What is 0 where a condition holds, with whole coefficients, or decimals as the file has them."""
         expr = condition.expr
         forms = [self._whole(expr)]
         with suppress(AlgebraError):  # the robot's own ring, with sums of angles, has not every angle
@@ -91,21 +88,14 @@ class SetForms(Inequalities):
 
     def _solvable(self, factor: Expr, unknown: Expr, rest: Expr) -> Node:
         """(k - m w²) q₃ - k d₀, where that is 0: what is unknown beside all that stands in front of it."""
-        form, whole = self.compactor(factor.ring).form, self._denominator(factor, rest)
+        form, whole = self.compactor(factor.ring).form, 1 / self.content((factor, rest))
         shown, signed = self._signed(factor * whole)
         rest = rest * (whole if signed == factor * whole else -whole)
         return total([times(1, [(shown, 1), (form(unknown), 1)]), *([] if rest.is_zero else [form(rest)])])
 
     def _whole(self, expr: Expr) -> Node:
         """What is 0 where an expression is, without a number in front of it."""
-        return without_number(self._signed(expr * self._denominator(expr))[0])
-
-    def _denominator(self, *parts: Expr) -> int:
-        """What makes all coefficients whole; 1 where they are long in a model in numbers."""
-        coefficients = [Fraction(int(c.p), int(c.q)) for part in parts for c in part.poly.coeffs()]
-        whole = lcm(*(c.denominator for c in coefficients))
-        is_long = any(abs(c * whole) > _MOST_WHOLE for c in coefficients)
-        return 1 if is_long and self.robot.has_decimals else whole
+        return without_number(self._signed(expr / self.content((expr,)))[0])
 
     def vanishing(self, value: Expr, signed: Set[int] = frozenset()) -> Node:
         """What is 0 where an expression is, without the factors that never are; 1 where there is no other.

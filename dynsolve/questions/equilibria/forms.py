@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cached_property
-from math import gcd, lcm
 
 from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_node, in_degrees
 from dynsolve.algebra.factors import ratio, trig_factors
 from dynsolve.algebra.inequality import Bound
+from dynsolve.algebra.linear_systems import MOST_DIGITS
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.elimination import turn_of
@@ -154,16 +154,16 @@ class EquilibriaForms(SetForms):
         return Relation((*middle.parts, size), ("=", "±"))
 
     def roots_of(self, condition: Condition) -> tuple[int, Expr, Expr, Expr] | None:
-        """(generator y, a, b, c) of a y² + b y + c = 0 with a > 0, with whole numbers; None of any other."""
+        """(generator y, a, b, c) of a y² + b y + c = 0 with a > 0; None of any other."""
         found = quadratic_of(condition.expr)
         if found is None:
             return None
         index, *parts = found
         signs = assumed_signs(self.robot, Transfer(self.robot.ring, condition.expr.ring))
-        whole = self._denominator(*parts)
+        shared = self.content(parts)
         for sign in (1, -1):
             if signs.is_positive(parts[0] * sign):
-                a, b, c = (part * (sign * whole) for part in parts)
+                a, b, c = (part * (sign / shared) for part in parts)
                 return index, a, b, c
         return None
 
@@ -199,15 +199,15 @@ class EquilibriaForms(SetForms):
             sign = 1 if 2 * sum(number > 0 for number in numbers) >= len(numbers) else -1
         common = above.poly.gcd(below.poly)
         parts = [Expr(ring, part.poly / common) for part in (above, below)]
-        numbers = [number for part in parts for number in part.poly.coeffs()]
-        whole = Fraction(lcm(*(int(n.q) for n in numbers)), gcd(*(int(n.p) for n in numbers)))
         if not sign:
             return None
-        above, below = (part * (whole * sign) for part in parts)
+        above, below = (part * (sign / self.content(parts)) for part in parts)
         upper, lower = form(above), form(below)
-        if lower == Number(1):
-            return equation(letter, upper)
         shortest: Node = Quotient(upper, lower)
+        if below.is_number and (self.robot.has_decimals or below == ring.one):
+            value = above / below.number
+            ends = all(10**MOST_DIGITS % int(number.q) == 0 for number in value.poly.coeffs())
+            return equation(letter, form(value) if ends else shortest)
         apart, rest = (Expr(ring, part) for part in divmod(above.poly, below.poly))
         if not (apart.is_zero or len(above) == 1 or ring.depends_on_coordinates(above)):
             shortest = min(shortest, total([form(apart), self._over(rest, below)]), key=cost)
