@@ -222,11 +222,15 @@ class EquilibriaForms(SetForms):
         return times(sign, [(upper, 1), (lower, -1)])
 
     def _tangent(self, condition: Condition) -> Node | None:
-        """tan θ = b/a where a sin θ = b cos θ, and a is not 0."""
-        turn = turn_of(condition.expr)
+        """tan θ = b/a where a sin θ = b cos θ, and a is not 0; 2θ = ±90° where a and b are of one size."""
+        turn, names = turn_of(condition.expr), condition.expr.ring.names
         if turn is None or turn.is_one_sided or not turn.rest.is_zero:
             return None
-        angle = Function("tan", angle_node(turn.pair.angle, condition.expr.ring.names))
+        if turn.cosine in (turn.sine, -turn.sine):
+            moving, fixed = by_coordinates(turn.pair.angle * 2, names)
+            quarter = Fraction(-90 if turn.cosine == turn.sine else 90)
+            return equation(angle_node(moving, names), angle_node(fixed + Angle(degrees=quarter)))
+        angle = Function("tan", angle_node(turn.pair.angle, names))
         return self._quotient(angle, -turn.cosine, turn.sine)
 
     @cached_property

@@ -2065,6 +2065,12 @@ def test_a_chain_that_is_too_short_never_closes() -> None:
     assert "There is no equilibrium." in told
 
 
+@pytest.mark.parametrize(("side", "angle"), [("[l, l, 0]", "2q₁ = 90°"), ("[l, -l, 0]", "2q₁ = -90°")])
+def test_a_tangent_of_1_is_told_as_twice_the_angle(side: str, angle: str) -> None:
+    arm = "gravity: [0, -g, 0]\ndh: [{theta: q1*}]\nmasses: [{mass: m, link: 1, center: %s}]\n"
+    assert angle in read(arm % side + "find: [equilibria]\n")
+
+
 def test_where_a_tangent_is_known_its_sine_and_cosine_are_not_0() -> None:
     """r = m g/(2 k cos θ) with tan θ = -1 is there for all parameters."""
     line = "constraints: [r*cos(a) + r*sin(a)]\nsprings: [{stiffness: k, of: r}]"
