@@ -45,6 +45,11 @@ _MIXED: Prose = (
     "The norm adds squares of lengths to squares of angles, so that it depends on the unit of length. ",
 )
 
+_MIXED_ERRORS: Prose = (
+    "The squares of errors in lengths and in angles are added, so that another unit of length may give "
+    "another answer. ",
+)
+
 
 def given(forms: Forms) -> Iterator[Prose]:
     """What the task is to do, and the weights."""
@@ -183,6 +188,8 @@ class _System:
             and len({q.type for q in self.context.robot.coordinates}) > 1
         ):
             how += _MIXED
+        if not self.solvable and len(loads_along(self.context, "Jr", self.J.T.rows)) > 1:
+            how += _MIXED_ERRORS
         where = of_rates(SetForms(self.context.robot, self.context.values)).prose
         return (*how, *where, " ") if where else how
 

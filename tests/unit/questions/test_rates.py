@@ -119,6 +119,13 @@ find: [qd]
 """
 
 
+def test_that_errors_in_lengths_and_angles_are_added_is_said_where_they_are() -> None:
+    arm = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nvelocity: [v, 0, w]\nfind: [qd]\n"
+    for task, is_said in (("tip.x, tip.y, q1 + q2", True), ("tip.x, tip.y, tip.x + tip.y", False)):
+        shown = report(dynsolve.solve(f"{arm}task: [{task}]\n"), Format.TEXT).decode()
+        assert "least squares" in shown and ("another unit of length" in shown) is is_said
+
+
 def test_of_many_that_come_nearest_it_is_said_which_and_how() -> None:
     """In one plane, stretched: the rank is 2 of 3."""
     shown = " ".join(report(dynsolve.solve(SLIDING), Format.TEXT).decode().split())
