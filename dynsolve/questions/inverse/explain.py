@@ -656,7 +656,13 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     number = number if count > 1 else f"there is one {one}"
     free = [Symbol(name) for name in solving.free]
     each_free = say(" for each value of {free}", free=listed(free)) if free else ()
-    there_are = say(f"{number}{{each_free}}", each_free=each_free)
+    there = [_existence(forms.inverse_formulas, step) for step in choices.values() if forms.target is None]
+    inside = [one for one in there if one is not None and is_certain]
+    which = "which" if len(choices) == 1 else "some of which"
+    where = say(
+        f" where {{inside}}, {which} coincide on the boundary, and none elsewhere", inside=listed(inside)
+    )
+    there_are = say(f"{number}{{each_free}}{{where}}", each_free=each_free, where=where if inside else ())
     notes = (*_conditions(forms, task), *_free_coordinates(solving))
     if is_free and choices:
         two = "{q} has two values: {there_are}."

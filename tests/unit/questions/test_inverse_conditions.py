@@ -50,7 +50,8 @@ def test_the_summary_has_the_conditions_and_what_is_free() -> None:
     slide = "base: Rx(90deg)\ndh: [{theta: 90deg, d: s1*, alpha: 90deg}, {theta: phi*, a: b}]"
     solution = solve(text(slide, "task: [tip.x, tip.z]\nreach: [X, Z]"))
     shown = " ".join(report(solution, Format.TEXT, detail=Detail.RESULTS).decode().split())
-    assert "there are 2 solutions for each value of s₁. They hold where X = 0 alone" in shown
+    assert "there are 2 solutions for each value of s₁ where -1 ≤ Z/b ≤ 1, which coincide on the" in shown
+    assert "boundary, and none elsewhere. They hold where X = 0 alone" in shown
     assert "s₁ does not change the task, and may be anything." in shown
 
 
