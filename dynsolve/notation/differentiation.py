@@ -5,7 +5,7 @@ Nothing is collected or simplified afterwards; that is the next line's work.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import product
@@ -211,8 +211,10 @@ Factors = tuple[tuple[Node, int], ...]
 """The factors of a product, each with its exponent."""
 
 
-def multiplied_out(node: Node, *, decimal: bool = False) -> Node:
+def multiplied_out(node: Node, kept: Collection[Node] = (), *, decimal: bool = False) -> Node:
     """A tree in which products of sums of sines and cosines are sums; all else stands as it is.
+
+    So do products of sums that are all `kept`.
 
     >>> from dynsolve.notation.tree import Symbol
     >>> from dynsolve.notation.unicode import to_unicode
@@ -221,12 +223,12 @@ def multiplied_out(node: Node, *, decimal: bool = False) -> Node:
     >>> to_unicode(multiplied_out(Product((Symbol("m"), Sum((a, Product((b, c)))), Sum((c, s))))))
     'm (a cos(q) + a sin(q) + b cos²(q) + b sin(q) cos(q))'
     """
-    return mapped(node, lambda part: _expanded(part, decimal) if isinstance(part, Product) else part)
+    return mapped(node, lambda part: _expanded(part, kept, decimal) if isinstance(part, Product) else part)
 
 
-def _expanded(node: Product, decimal: bool) -> Node:
+def _expanded(node: Product, kept: Collection[Node], decimal: bool) -> Node:
     sums = [factor for factor in node.factors if isinstance(factor, Sum) and is_trigonometric(factor)]
-    if len(sums) < 2:
+    if len(sums) < 2 or all(one in kept for one in sums):
         return node
     whole = total([_in_order(chosen, decimal) for chosen in product(*(each.terms for each in sums))])
     first = node.factors.index(sums[0])

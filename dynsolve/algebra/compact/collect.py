@@ -694,9 +694,9 @@ def product_of_sums(rates: Node) -> Node:
     """A sum of products of rates as a product, where that is one; else as it is.
 
     >>> from dynsolve.notation.unicode import to_unicode
-    >>> u, v, w = (Symbol(name, 1) for name in "uvw")
-    >>> to_unicode(product_of_sums(Sum((Product((Number(2), u, w)), Product((Number(2), v, w))))))
-    '2ẇ (u̇ + v̇)'
+    >>> u, v, q = (Symbol(name, 1) for name in "uvq")
+    >>> to_unicode(product_of_sums(Sum((Product((Number(2), u, q)), Product((Number(2), v, q))))))
+    '2q̇ (u̇ + v̇)'
     """
     collector = Collector(AtomTable())
     for symbol in dict.fromkeys(part for part in walk(rates) if isinstance(part, Symbol)):

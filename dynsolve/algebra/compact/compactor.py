@@ -503,16 +503,15 @@ class Compactor:
             or any(e[MASSES] or e[RATES] for e in terms)
         ):
             return None
-        if any(
-            number and len(group.places) % 2 for e in terms for group, number in zip(groups, e, strict=False)
-        ):
+        pairs = [group for group in groups if len(group.places) > 1]  # the constant ones are the last
+        if any(any(e[len(pairs) : MASSES]) for e in terms):
             return None  # a constant angle, of which the cosine alone is known
         written: dict[Product, Rational] = {}
         for e, f in terms.items():
-            trig = chain.from_iterable(group.powers.values[n] for group, n in zip(groups, e, strict=False))
+            trig = chain.from_iterable(group.powers.values[n] for group, n in zip(pairs, e, strict=False))
             written[tuple(trig), self._atoms.monomials.values[e[SYMBOLS]]] = f
         for one in (written, homogeneous(written)):
-            product = self.collector.product_of_sums(self._in_atoms(one, groups)) if one else None
+            product = self.collector.product_of_sums(self._in_atoms(one, pairs)) if one else None
             if product is not None:
                 return product
         return None

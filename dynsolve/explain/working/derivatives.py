@@ -82,7 +82,7 @@ def _derivative(context: Context, of: Node, rule: Rule, value: Expr, form: Node)
     """The derivative of a formula; its form alone where that is a look, or the lines are not proved."""
     decimal = context.robot.has_decimals
     found = differentiated(of, rule, decimal=decimal)
-    expanded = multiplied_out(found.tree, decimal=decimal)
+    expanded = multiplied_out(found.tree, brackets(form), decimal=decimal)
     if are_alike(found.tree, form) or proved(value, [("", found.tree), ("", expanded)]) is None:
         return _Derivative(form, form, form)
     used = identities(value.ring, found.tree, form) or ()

@@ -184,7 +184,7 @@ def test_where_an_arm_of_these_lengths_is_singular(l2: str, l3: str, singular: l
     ("rate", "equilibria", "below"),
     [
         ("1", [["sin(theta) = 0"]], "stable"),
-        ("3", [["300*cos(theta) - 109 = 0"], ["sin(theta) = 0"]], "unstable"),
+        ("3", [["3*cos(theta) - 1.09 = 0"], ["sin(theta) = 0"]], "unstable"),
     ],
 )
 def test_where_a_hoop_of_this_rate_has_its_bead(rate: str, equilibria: list[list[str]], below: str) -> None:
