@@ -946,6 +946,16 @@ def _unbalanced_by_any(m: Mechanism, s: Sentence) -> bool:
     return all(min(one) > 0 or max(one) < 0 for one in sides)
 
 
+@says(
+    "The potential energy does not change along what the constraints leave free: every configuration that "
+    "they allow is an equilibrium, and all are indifferent."
+)
+def _indifferent(m: Mechanism, s: Sentence) -> bool:
+    """g is a combination of the rows of A_c, at random states."""
+    pairs = [(m.result("Ac", p), m.result("g", p)) for p in m.points()]
+    return all(rank(np.vstack([A, g.T])) == rank(A) for A, g in pairs)
+
+
 @says("As masses and lengths of the table are positive, {&}.")
 def _negative(m: Mechanism, s: Sentence) -> bool:
     solved = [one for one in s.formulas if isinstance(one, tree.Relation)]

@@ -26,7 +26,7 @@ CONDITIONAL = (
     "conserved", "simple poses", "gravity is balanced", "positive definite",  # checks, at poses of their own
     "Checks", "Given", "What decouples", "equilibri", "configurations:", "conditions for balance:",
     "cannot hold", "inverse kinematics:", "equations without multipliers:",
-    "Frames from the drawing", "has solutions where", "stable", "do not decide",
+    "Frames from the drawing", "has solutions where", "stable", "do not decide", ": not where",
     "depend on the configuration", "has no inverse", "Summary > At", " holds where", " hold where",
     "holds only where", "hold only where", "solution only where", "solutions",
     "Singular", "Inverse", "Rates ", "Statics", "Forces from outside", "Equilib", "Balance", "Linearization",
@@ -402,6 +402,10 @@ def relations(blocks: Any, where: str = "") -> Iterator[tuple[str, tree.Relation
                 where = section = block.text if block.level > 1 else "Given"
             case document.Text() if section == "Summary":
                 where = f"{section} > {''.join(part for part in block.parts if isinstance(part, str))}"
+            case document.Note() if any(
+                ": not where" in part for part in block.parts if isinstance(part, str)
+            ):
+                continue  # what it says is 0 is so there alone
             case document.Fold():
                 yield from relations(block.blocks, f"{where} > {block.title}")
                 continue
