@@ -688,11 +688,12 @@ def _minor_is_not_positive(m: Mechanism, s: Sentence) -> bool:
     return all(m.least(lambda p: float(p.value(told.parts[-1]).value), h.names) < 1e-3 for h in m.points())
 
 
-@says("Where {}, {}, which is not positive.")
+@says("Where {}, {}, which is not positive[ for some {&}].")
 def _minor_is_zero(m: Mechanism, s: Sentence) -> bool:
     (told,) = [shown for shown in s.shown() if shown.parts[0] == s.formulas[1].parts[0]]
     here, value = m.where(s.formulas[0]), s.formulas[1].parts[-1]
-    return near(m.value(told.parts[-1], here), m.value(value, here)) and m.value(value, here) <= 0
+    least = m.least(lambda p: float(p.value(value).value), here.names)
+    return near(m.value(told.parts[-1], here), m.value(value, here)) and least < 1e-3
 
 
 @says("It depends on the first coordinate, {&}; no inertia matrix of relative coordinates does.")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import prod
 
 from msgspec.structs import replace
@@ -143,13 +143,12 @@ def reason(forms: Forms, found: Definiteness) -> Prose:
 
 
 def _not_positive(forms: Forms, found: Definiteness) -> Prose:
-    """Where which minor is not positive: where cos θ₂ = 0, d = 0."""
+    """Where which minor is not positive: where cos θ₂ = 0, d = 0; or where c₁ = 1, for some q₂, a + c q₂."""
     assert found.extreme is not None
-    ring, bound = forms.robot.ring, found.extreme.bound
+    ring, placed = forms.robot.ring, found.extreme.where
     minor = Letter("Delta", Number(found.size))
-    known = equation(minor, forms.of(bound.value))
     where: list[Node] = []
-    for index, value in found.extreme.where:
+    for index, value in placed:
         g = ring.generators[index]
         sign: Node = Symbol(g.name)
         if g.kind in ("sin", "cos"):
@@ -161,11 +160,25 @@ def _not_positive(forms: Forms, found: Definiteness) -> Prose:
         minors = [Letter("Delta", Number(k)) for k in range(1, found.size + 1)]
         all_ = "both" if found.size == 2 else "all"
         return say(f"{{at}}{{minors}} are not {all_} positive{somewhere}.", at=at, minors=listed(minors))
-    if where:
-        return say("{at}{minor}, which is not positive.", at=at, minor=known if bound.is_strict else minor)
-    if found.minors[found.size - 1].is_number:
-        return say("{known} is not positive.", known=known)
-    return say("{minor} is not positive in every configuration.", minor=minor)
+    there = _at(found.minors[found.size - 1], placed)
+    known = equation(minor, forms.of(there))
+    if not where:
+        one = known if there.is_number else minor
+        return say(f"{{one}} is not positive{'' if there.is_number else somewhere}.", one=one)
+    left = [Symbol(name) for k, name in enumerate(ring.names) if not there.ring.diff(there, k).is_zero]
+    some = say(" for some {left}", left=listed(left)) if left else ()
+    return say("{at}{minor}, which is not positive{some}.", at=at, minor=known, some=some)
+
+
+def _at(minor: Expr, where: Iterable[tuple[int, int]]) -> Expr:
+    """A minor where generators have values; beside a sine or cosine that is 1 or -1 the other is 0."""
+    ring, images = minor.ring, {}
+    for index, value in where:
+        images[index] = ring.constant(value).poly
+        for pair in ring.pairs:
+            if index in (pair.sine, pair.cosine) and value:
+                images[pair.sine + pair.cosine - index] = ring.zero.poly
+    return ring.put(minor, images)
 
 
 def _all_of(forms: Forms, bounds: tuple[Bound, ...]) -> Prose:

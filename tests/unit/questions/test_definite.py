@@ -208,6 +208,36 @@ def test_of_minors_that_share_a_factor_no_value_is_told() -> None:
     assert result["why"] == "Δ₁ and Δ₂ are not both positive in every configuration."
 
 
+@pytest.mark.parametrize(
+    ("entry", "assume", "why"),
+    [
+        (
+            "a + c*d*cos(q1)",
+            "[a > 0, c > 0]",
+            "Where c₁ = 1, Δ₁ = a + c d, which is not positive for some d.",
+        ),
+        (
+            "a + c*d^2*cos(q1)",
+            "[a > 0, c > 0]",
+            "Where c₁ = -1, Δ₁ = a - c d², which is not positive for some d.",
+        ),
+        ("a + b*cos(q1)", "[b > a, a > 0]", "Where c₁ = -1, Δ₁ = a - b, which is not positive."),
+        ("a + b*d*sin(q2)", "[b > 0]", "Where s₂ = 1, Δ₁ = a + b d, which is not positive for some d."),
+        (
+            "a + b*d*cos(q1) + c*d^2",
+            "[c > 0, a > 0, b^2 > 4*a*c]",
+            "Where c₁ = 1, Δ₁ = a + b d + c d², which is not positive for some d.",
+        ),
+    ],
+)
+def test_what_a_minor_is_at_the_place_is_told_with_what_is_left_open(
+    entry: str, assume: str, why: str
+) -> None:
+    """It is 0 where c₁ = 1 and d = -a/c, say; where c₁ = 1 alone it is no more than a + c d."""
+    result = solve_json(file(f"[[{entry}, 0, 0], [0, b, 0], [0, 0, 1]]", assume))["results"]["definite"]["M"]
+    assert (result["verdict"], result["why"]) == ("no", why)
+
+
 def test_a_model_s_matrix_is_judged_by_itself() -> None:
     text = (
         "model:\n  coordinates: {q: revolute}\n  D: [[a + b*cos(q)]]\nassume: [b > 0]\nfind: [definite, C]\n"
