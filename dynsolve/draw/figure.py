@@ -402,10 +402,7 @@ def _arrow(arrow: ArmArrow, at: Mapping[str, float], pose: Pose, notes: poses.No
     tip = pose.view.point(pose.skeleton.frames[-1].origin)
     dx, dy = pose.view.direction(unit(direction))
     if (dx**2 + dy**2) ** 0.5 < _END_ON:
-        notes.draw(
-            Path(paths.circle(tip, 7.0), paths.VARIABLE, 1.8, paths.WHITE),
-            Path(paths.circle(tip, 2.4), None, fill=paths.VARIABLE),
-        )
+        poses.seen_end_on(tip, poses.is_toward(direction, pose.view), notes, paths.VARIABLE, 7.0)
         notes.label(arrow.name, [tip], (1.0, -1.0), paths.VARIABLE, "axis", 8.0)
         return
     inwards = [from_to(tip, pose.view.point(point)) for point in pose.skeleton.path[-2:-1]]

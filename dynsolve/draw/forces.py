@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from dynsolve.algebra.ring import Expr
 from dynsolve.draw import paths
 from dynsolve.draw.labels import written
-from dynsolve.draw.poses import MARK, Notes, Pose, seen_end_on
+from dynsolve.draw.poses import MARK, Notes, Pose, is_toward, seen_end_on
 from dynsolve.draw.skeleton import DrawnFrame, RobotNumbers, finite
-from dynsolve.draw.vectors import NEAR, Vector, add, applied, dot, length, moved, scale, unit
+from dynsolve.draw.vectors import NEAR, Vector, add, applied, length, moved, scale, unit
 from dynsolve.notation.build import split_sign
 from dynsolve.notation.tree import Node, Number
 from dynsolve.quantities import letters
@@ -39,8 +39,7 @@ def forces(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> Non
         size = (x * x + y * y) ** 0.5
         if size < _END_ON:
             center = moved(start, (0.8, -0.6), 2.5 * MARK)
-            is_toward = dot(direction, pose.view.toward) > 0
-            seen_end_on(center, is_toward, notes, _COLOUR)
+            seen_end_on(center, is_toward(direction, pose.view), notes, _COLOUR)
             notes.label(name, [center], (1.0, 0.0), _COLOUR, "force", MARK)
             continue
         way = x / size, y / size

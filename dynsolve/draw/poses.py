@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import combinations, pairwise
+from itertools import combinations, compress, pairwise
 
 from msgspec import Struct, field
 
@@ -46,7 +46,7 @@ from dynsolve.draw.vectors import (
     toward,
 )
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Node, Number, Row, Symbol, Words
+from dynsolve.notation.tree import Negative, Node, Number, Row, Symbol, Words
 from dynsolve.quantities import letters
 from dynsolve.robot.model import JointType, Robot
 
@@ -220,6 +220,9 @@ _END_ON = 0.06
 _ALONG = 0.99
 """The cosine from which gravity acts along an axis."""
 
+_STEEP = 0.9
+"""The cosine from which gravity is drawn as normal to the plane of the paper."""
+
 _PAST_ARC = 12.0
 """How far the tip of an axis is on paper from the arc of an angle, which is not to cut its head."""
 
@@ -270,29 +273,50 @@ class Notes(Struct, dict=True):
 # -- frames ----------------------------------------------------------------------------------------
 
 
-def frames(pose: Pose, gravity: Vector | None, notes: Notes) -> None:
-    """The z and x axes of every frame; axes that fall on one another share a label.
+class Axis(Struct, frozen=True):
+    """An axis of a frame where it is drawn: its name, the frame's origin, its direction."""
 
-    Of frame 0 the y axis too where gravity acts along it.
+    name: Node
+    origin: Vector
+    direction: Vector
+
+
+def axes_of_frames(pose: Pose, gravity: Vector | None) -> list[Axis]:
+    """The x and z axes of every frame; of frame 0 the y axis too where gravity acts along it."""
+    found = []
+    for i, frame in enumerate(pose.skeleton.frames):
+        shown = [("x", frame.x), ("z", frame.z)]
+        if i == 0 and gravity and abs(dot(gravity, frame.axes[1])) > _ALONG:
+            shown.append(("y", frame.axes[1]))
+        found += [Axis(letters.bold(letter, Number(i)), frame.origin, axis) for letter, axis in shown]
+    return found
+
+
+def frames(pose: Pose, axes: Sequence[Axis], notes: Notes) -> None:
+    """The axes of frames; those that fall on one another share a label.
+
+    Opposite axes that are seen end on share the point of the one towards the viewer: of the other
+    the label has minus.
     """
     view = pose.view
-    groups: list[tuple[Point, Point, list[Node]]] = []
-    for i, frame in enumerate(pose.skeleton.frames):
-        origin = view.point(frame.origin)
-        axes = [("x", frame.x), ("z", frame.z)]
-        if i == 0 and gravity and abs(dot(gravity, frame.axes[1])) > _ALONG:
-            axes.append(("y", frame.axes[1]))
-        for letter, axis in axes:
-            name = letters.bold(letter, Number(i))
-            tip = axis_arrow(origin, axis, view, reach_of_axis(view.direction(axis), pose), notes)
-            known = next(
-                (g for g in groups if math.dist(g[1], tip) < _SAME and math.dist(g[0], origin) < _SAME), None
-            )
-            if known:
-                known[2].append(name)
-            else:
-                groups.append((origin, tip, [name]))
-    for origin, tip, names in groups:
+    groups: list[tuple[Point, Point, list[Axis]]] = []
+    for axis in axes:
+        origin = view.point(axis.origin)
+        reach = reach_of_axis(view.direction(axis.direction), pose)
+        tip = axis_arrow(origin, axis.direction, view, reach, notes)
+        known = next(
+            (g for g in groups if math.dist(g[1], tip) < _SAME and math.dist(g[0], origin) < _SAME), None
+        )
+        if known:
+            known[2].append(axis)
+        else:
+            groups.append((origin, tip, [axis]))
+    for origin, tip, group in groups:
+        is_ahead = [is_toward(axis.direction, view) for axis in group]
+        names = [axis.name for axis in group]
+        if tip == origin and any(is_ahead):
+            names = list(compress(names, is_ahead))
+            names += [Negative(axis.name) for axis in group if not is_toward(axis.direction, view)]
         listed = [names[0], *(part for name in names[1:] for part in (Words(", "), name))]
         node = names[0] if len(names) == 1 else Row(tuple(listed))
         radius = MARK if tip == origin else 0.0
@@ -325,15 +349,14 @@ def world_axes(
             radius = 0.0 if is_seen else MARK
             notes.label(letters.bold(letter, index), [tip], from_to(at, tip), paths.FRAME, "axis", radius)
         if end_on and not is_seen:
-            seen_end_on(at, dot(axis, view.toward) > 0, notes)
+            seen_end_on(at, is_toward(axis, view), notes)
 
 
-def axes_end_on(pose: Pose, notes: Notes) -> None:
-    """The axes that are seen end on, over the masses at their origins."""
-    for frame in pose.skeleton.frames:
-        for axis in (frame.x, frame.z):
-            if _is_end_on(axis, pose.view):
-                seen_end_on(pose.view.point(frame.origin), dot(axis, pose.view.toward) > 0, notes)
+def axes_end_on(pose: Pose, axes: Sequence[Axis], notes: Notes) -> None:
+    """The axes that are seen end on, over the masses at their origins and over opposite ones."""
+    for axis in sorted(axes, key=lambda axis: is_toward(axis.direction, pose.view)):
+        if _is_end_on(axis.direction, pose.view):
+            seen_end_on(pose.view.point(axis.origin), is_toward(axis.direction, pose.view), notes)
 
 
 def reach_of_axis(direction: Point, pose: Pose) -> float:
@@ -346,13 +369,20 @@ def _is_end_on(axis: Vector, view: View) -> bool:
     return math.hypot(*view.direction(axis)) < _END_ON
 
 
-def seen_end_on(center: Point, toward: bool, notes: Notes, colour: str = paths.FRAME) -> None:
-    """An arrow seen end on: a point for its tip, a cross for its feathers."""
-    notes.draw(Path(paths.circle(center, MARK), colour, 1.4, paths.WHITE))
+def is_toward(direction: Vector, view: View) -> bool:
+    """Whether a direction points to the viewer's side of the paper."""
+    return dot(direction, view.toward) > 0
+
+
+def seen_end_on(
+    center: Point, toward: bool, notes: Notes, colour: str = paths.FRAME, radius: float = MARK
+) -> None:
+    """An arrow seen end on: a point for its tip where it points `toward` the viewer, else its feathers."""
+    notes.draw(Path(paths.circle(center, radius), colour, 1.4, paths.WHITE))
     if toward:
-        notes.draw(Path(paths.circle(center, 2.0), None, fill=colour))
+        notes.draw(Path(paths.circle(center, radius / 3), None, fill=colour))
         return
-    notes.draw(*_cross(center, 0.7 * MARK, colour))
+    notes.draw(*_cross(center, 0.7 * radius, colour))
 
 
 def _cross(center: Point, size: float, colour: str) -> Iterator[Path]:
@@ -364,14 +394,14 @@ def _cross(center: Point, size: float, colour: str) -> Iterator[Path]:
 # -- mass centres and gravity ----------------------------------------------------------------------
 
 
-def masses(pose: Pose, notes: Notes) -> None:
+def masses(pose: Pose, axes: Sequence[Axis], notes: Notes) -> None:
     """Mass centres: the quartered disk of mechanics, a ball for a point mass."""
     for mass in pose.skeleton.masses:
         center = pose.view.point(mass.center)
         if not _is_on_link(center, pose):
             origin = pose.view.point(pose.skeleton.frames[mass.link].origin)
             notes.draw(Path(paths.line(origin, center), paths.BLACK, 0.9, dashed=True))
-        radius = AROUND if _is_under_axis(center, pose) else MARK
+        radius = AROUND if _is_under_axis(center, pose.view, axes) else MARK
         if mass.is_point:
             notes.draw(Path(paths.circle(center, radius), paths.WHITE, 1.2, paths.BLACK))
         else:
@@ -385,12 +415,11 @@ def has_masses_off_links(pose: Pose) -> bool:
     return not all(_is_on_link(pose.view.point(mass.center), pose) for mass in pose.skeleton.masses)
 
 
-def _is_under_axis(center: Point, pose: Pose) -> bool:
+def _is_under_axis(center: Point, view: View, axes: Sequence[Axis]) -> bool:
     """Whether an axis that is seen end on stands where a mass centre is."""
     return any(
-        math.dist(center, pose.view.point(frame.origin)) < MARK
-        and any(_is_end_on(axis, pose.view) for axis in (frame.x, frame.z))
-        for frame in pose.skeleton.frames
+        math.dist(center, view.point(axis.origin)) < MARK and _is_end_on(axis.direction, view)
+        for axis in axes
     )
 
 
@@ -417,14 +446,15 @@ def _quartered(center: Point, radius: float) -> tuple[Path, ...]:
     return (Path(paths.circle(center, radius), paths.BLACK, 1.2, paths.WHITE), *quarters)
 
 
-def gravity(robot: Robot, place: Point, direction: Point | None, notes: Notes) -> None:
-    """The arrow of gravity with its letter; a cross in a circle where it points away from the viewer."""
+def gravity(robot: Robot, place: Point, pull: Vector, view: View, notes: Notes) -> None:
+    """The arrow of gravity with its letter; a point or a cross in a circle where it is seen end on."""
     ring, entries = robot.ring, robot.gravity.entries
     squared = sum((entry * entry for entry in entries), start=ring.zero)
     names = (name for name in symbols_of(robot, entries) if ring.symbol(name) ** 2 == squared)
     node = Symbol(next(names, "g"))
-    if direction is None:
-        notes.draw(Path(paths.circle(place, 8.0), paths.BLACK, 1.4), *_cross(place, 5.6, paths.BLACK))
+    direction = toward((0.0, 0.0), view.direction(pull))
+    if view.flat and abs(dot(pull, view.toward)) > _STEEP:
+        seen_end_on(place, is_toward(pull, view), notes, paths.BLACK, 8.0)
         beside = moved(place, (1.0, 0.0), 8.0)
     else:
         back, tip = moved(place, direction, 38.0), moved(place, direction, 46.0)

@@ -201,8 +201,9 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     notes = poses.Notes(_STAR if star else PLAIN, Taken())
     notes.taken.add([*under, *body])
     notes.solid.add(body)
+    axes = poses.axes_of_frames(pose, world.gravity if frames else None)
     if frames:
-        poses.frames(pose, world.gravity, notes)
+        poses.frames(pose, axes, notes)
     if has_world(robot, values):
         under = (*world_frame(robot, values, pose, notes), *under)
     joint_angles(pose, names_of_angles(robot), notes)
@@ -211,8 +212,8 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     springs(robot, values, pose, notes)
     poses.motors(robot, values, pose, notes)
     forces(robot, values, pose, notes)
-    poses.masses(pose, notes)
-    poses.axes_end_on(pose, notes)
+    poses.masses(pose, axes, notes)
+    poses.axes_end_on(pose, axes, notes)
     for name, at in held.names:
         notes.label(name, [pose.view.point(at)], (0.0, 0.0), paths.BLACK, "point", poses.MARK)
     thicknesses(robot, pose, notes)
@@ -334,9 +335,7 @@ def gravity_arrow(
     robot: Robot, gravity: Vector, view: View, body: Iterable[Path], notes: poses.Notes
 ) -> None:
     """The arrow of gravity, at the side where there is most room."""
-    end_on = view.flat and abs(dot(gravity, view.toward)) > 0.9
-    direction = None if end_on else toward((0.0, 0.0), view.direction(gravity))
-    poses.gravity(robot, _free_place(body, notes, _GRAVITY_ROOM), direction, notes)
+    poses.gravity(robot, _free_place(body, notes, _GRAVITY_ROOM), gravity, view, notes)
 
 
 def _free_place(body: Iterable[Path], notes: poses.Notes, room: Box) -> Point:

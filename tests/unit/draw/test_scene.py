@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from dynsolve.draw.figure import font_size, to_svg
 from dynsolve.draw.labels import Taken, bounds
 from dynsolve.draw.parts import HALF_HEIGHT
-from dynsolve.draw.paths import BLACK, FRAME, GREY, SIZE, VARIABLE, flattened, line
+from dynsolve.draw.paths import BLACK, FRAME, GREY, SIZE, VARIABLE, WHITE, flattened, line
 from dynsolve.draw.paths import Path as Drawn
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.poses import AROUND
@@ -23,6 +23,7 @@ from dynsolve.draw.scene import OFF_LINKS, SHAPES, Scene, scene
 from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.draw.solids import BODY, solids
 from dynsolve.draw.vectors import Point, distance, dot, segment_distance
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import load, read_problem
 from dynsolve.robot.model import JointType
 from tests.support import LIBRARY, TEXTBOOKS
@@ -438,3 +439,56 @@ def test_a_length_is_positive_as_it_is_drawn() -> None:
         "values: {p: 2, h: 1, t: 0.5}\nfind: [DH]\n"
     )
     assert "h - t" in names(drawn_text(arm), "length")
+
+
+def marks(picture: Scene, colour: str) -> list[bool]:
+    """The arrows of a colour that are seen end on: whether the last mark at a place is a point."""
+    last = dict[Point, Drawn]()
+    rings = set[Point]()
+    for path in picture.paths:
+        x, y = bounds([path]).center
+        last[round(x, 1), round(y, 1)] = path
+        if (path.stroke, path.fill, path.width) == (colour, WHITE, 1.4):
+            rings.add((round(x, 1), round(y, 1)))
+    return [last[ring].fill == colour for ring in rings]
+
+
+UPRIGHT = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]"
+LEVEL = "dh: [{d: d1*, alpha: 90deg}, {theta: q2*, a: l2}]"
+"""In the plane of x₀ and z₀: y₀ points away from the viewer."""
+TURNED = "convention: modified\ndh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l1}, {a: l2}]"
+
+
+@pytest.mark.parametrize(
+    ("pull", "rest", "is_toward"),
+    [
+        ("[0, 0, -g]", UPRIGHT, False),
+        ("[0, 0, g]", UPRIGHT, True),
+        ("[0, -g, 0]", LEVEL, True),
+        ("[0, g, 0]", LEVEL, False),
+        ("[0, -g, 0]", TURNED, True),
+        ("[0, g, 0]", TURNED, False),
+    ],
+)
+def test_gravity_normal_to_the_paper_shows_its_sense(pull: str, rest: str, is_toward: bool) -> None:
+    assert marks(drawn_text(f"gravity: {pull}\n{rest}"), BLACK) == [is_toward]
+
+
+@pytest.mark.parametrize(
+    ("text", "label", "senses"),
+    [
+        (f"gravity: [0, -g, 0]\n{TURNED}", "z₁, -y₀", {True}),
+        (f"gravity: [0, -g, 0]\n{LEVEL}", "y₀", {True, False}),
+        (
+            "convention: modified\ngravity: [0, -g, 0]\n"
+            "dh: [{theta: q1*, alpha: 180deg}, {theta: q2*, a: l1}, {a: l2}]",
+            "z₀, -z₁",
+            {True, False},
+        ),
+    ],
+)
+def test_opposite_axes_have_no_mark_with_one_sign(text: str, label: str, senses: set[bool]) -> None:
+    """An axis that points away has its own mark, or a minus beside the mark of one that does not."""
+    picture = drawn_text(text)
+    assert set(marks(picture, FRAME)) == senses
+    assert label in [to_unicode(each.node, picture.style) for each in picture.labels]
