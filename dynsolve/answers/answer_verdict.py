@@ -354,7 +354,8 @@ def judged_set(
                 return replace(base, verdict=Verdict.FOLLOWS, follows_from=in_order(graph, own.used))
         if sources := in_order(graph, explanations.before(zero, unread)):
             return replace(base, fault=MAY_FOLLOW.format(" and ".join(sources)), waits=True)
-    fault = told(key.fault(answer.name, found.code), number=str(found.number), where=found.where)
+    said = {"number": str(found.number), "where": found.where, "what": found.what}
+    fault = told(key.fault(answer.name, found.code), **said)
     return replace(base, verdict=Verdict.WRONG, diagnosis=(fault,))
 
 

@@ -53,7 +53,7 @@ def by_code(*faults: Fault) -> dict[str, Fault]:
 
 
 class SetVerdict(Struct, frozen=True):
-    """Whether a set is right, else the `code` of what is said of alternative `number`, and `where`.
+    """Whether a set is right, else the `code` of what is said of alternative `number`, `where` and of `what`.
 
     `notes` are what is said of one that is right.
     """
@@ -63,6 +63,7 @@ class SetVerdict(Struct, frozen=True):
     number: int = 0
     notes: tuple[str, ...] = ()
     where: str = ""
+    what: str = ""
 
 
 RIGHT = SetVerdict(True)

@@ -6,11 +6,15 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
+from msgspec.structs import replace
+
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.ring import Expr
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.derivation.reached import CLOSE
-from dynsolve.notation.tree import Node, names_in
+from dynsolve.notation.printing import PLAIN
+from dynsolve.notation.tree import Matrix, Node, names_in
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.questions.equation_sets import NEVER_HOLDS, EquationSet, held_equations, vanishing_set
 from dynsolve.questions.equilibria.check import (
     balanced_forces,
@@ -38,10 +42,13 @@ class EquilibriaKey(SetKey):
     faults = NEVER_HOLDS | by_code(
         Fault("equilibria_missing", "a case",
               "{where}, there is an equilibrium, and no alternative of yours holds.",
-              "Every choice of one factor of each force that is 0 is a case."),
+              "Look for every solution: where what must be 0 is a product, each of its factors may be 0."),
         Fault("no_equilibrium", "a case",
               "{where}, alternative {number} holds, and the forces are not in balance.",
-              "Put such a configuration into g(q), row by row."),
+              "Put such a configuration into {what}, row by row."),
+        Fault("off_constraint", "a case",
+              "{where}, alternative {number} holds, and the constraint {what} = 0 does not.",
+              "Every constraint belongs to the conditions, beside g(q) = A_cᵀ λ."),
     )  # fmt: skip
 
     def __init__(self, judged: Judged, name: str) -> None:
@@ -67,8 +74,19 @@ class EquilibriaKey(SetKey):
         return held <= numbers.keys() and abs(evaluate(factor, numbers)) < CLOSE
 
     def verdict(self, given: Alternatives) -> SetVerdict:
-        """Whether a set is that of the key."""
-        return self._set.verdict(given)
+        """Whether a set is that of the key; of one that is not, first whether it keeps the constraints."""
+        found = self._set.verdict(given)
+        if found.code != "no_equilibrium" or not self.robot.questions.constraints:
+            forces = "τ, with constant rates" if self.robot.questions.model.steady else "g(q)"
+            return replace(found, what=forces)
+        constraints = self.forms("hc")
+        assert isinstance(constraints, Matrix)
+        for (h,) in constraints.rows:
+            kept = vanishing_set(self.robot, [h], (), self.judged.numbers, wrong="off_constraint")
+            off = kept.verdict(given)
+            if off.code == "off_constraint":
+                return replace(off, what=to_unicode(h, PLAIN))
+        return replace(found, what="g(q) = A_cᵀ λ")
 
     def zeros(self, value: Any) -> Sequence[Node]:
         """What is 0 where forces are: those of what no motor holds."""

@@ -98,6 +98,64 @@ def test_verdicts(problem: str, written: str, code: str, tmp_path: Path) -> None
     assert [one.code for one in found.diagnosis] == ([code] if code else [])
 
 
+BEAD = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, y: prismatic}
+  bodies: [{mass: m, at: [x, y, 0]}]
+constraints: [y - a*x*x]
+find: [equilibria]
+"""
+SPHERE = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {x: prismatic, y: prismatic, z: prismatic}
+  bodies: [{mass: m, at: [x, y, z]}]
+passive: [x, y, z]
+constraints: [x^2 + y^2 + z^2 - R^2]
+find: [equilibria]
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "written", "codes", "says"),
+    [
+        (BEAD, '["x = 0 and y = 0"]', [], ""),
+        (
+            BEAD,
+            "[x = 0]",
+            ["off_constraint"],
+            "alternative 1 holds, and the constraint y - a x² = 0 does not.",
+        ),
+        (BEAD, "[y = a*x^2]", ["no_equilibrium"], "and the forces are not in balance."),
+        (SPHERE, '["x = 0 and y = 0 and z = R", "x = 0 and y = 0 and z = -R"]', [], ""),
+        (SPHERE, '["x = 0 and y = 0"]', ["off_constraint"], "the constraint x² + y² + z² - R² = 0 does not."),
+        (SPHERE, '["x = R and y = 0 and z = 0"]', ["no_equilibrium"], "and the forces are not in balance."),
+    ],
+)
+def test_what_misses_a_constraint_is_not_said_to_be_out_of_balance(
+    problem: str, written: str, codes: list[str], says: str
+) -> None:
+    """With constraints g(q) itself is not 0: at the bottom of the parabola it is (0, m g)."""
+    (found,) = dynsolve.check(problem, f"answers:\n  equilibria: {written}\n").answers
+    assert [one.code for one in found.diagnosis] == codes
+    for told in found.diagnosis:
+        assert says in told.message and "g(q) = A_cᵀ λ" in told.look
+
+
+def test_no_factors_are_spoken_of_where_a_force_has_none() -> None:
+    spring = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}]
+masses: [{mass: m, link: 1}]
+springs: [{stiffness: k, of: q1, rest: 90deg}]
+find: [equilibria]
+"""
+    (found,) = dynsolve.check(spring, "answers:\n  equilibria: [q1 = pi/2]\n").answers
+    (told,) = found.diagnosis
+    assert told.code == "equilibria_missing" and "where what must be 0 is a product" in told.look
+
+
 THREE_LINKS = """
 gravity: [0, -g, 0]
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
