@@ -9,7 +9,7 @@ by its lengths.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from msgspec import Struct
 
@@ -62,6 +62,9 @@ _WALL, _BEYOND = 62.0, 14.0
 
 _CURVE, _PIECE = 480.0, 3.0
 """How far a curve is followed to both sides, and in pieces of which length."""
+
+_ROOM, _INSIDE = 36.0, 30.0
+"""How far from a wall other points of the chain are to be, in picture units; what one in its face costs."""
 
 _STAND, _MEETING = RADIUS + 14.0, 9.0
 
@@ -214,14 +217,9 @@ def _wall(
     held: _Constraint, used: Mapping[str, Vector], start: Vector, pose: Pose, world: Orientation
 ) -> tuple[Path, ...]:
     """A hatched line through a point, from where its length ends; a plate in space."""
-    ((point, place),) = used.items()
-    view, at = pose.view, add(start, place)
-    normal = unit(_on_paper(held.slope(used, point), pose))
+    view = pose.view
+    at, normal = _face(held, used, start, pose, world)
     away = dot(subtract(at, start), normal)
-    if abs(away) > NEAR:
-        normal = scale(normal, math.copysign(1.0, away))
-    elif dot(normal, world.up) > NEAR:
-        normal = scale(normal, -1.0)
     foot = along(start, normal, away)
     if not view.flat:
         beside = Path(paths.line(view.point(foot), view.point(at)), paths.GREY, 0.9, dashed=True)
@@ -233,6 +231,39 @@ def _wall(
     ends = [-view.space(_WALL), view.space(_WALL), *([beyond] if abs(away) > NEAR else [])]
     first, last = (view.point(along(at, way, t)) for t in (min(ends), max(ends)))
     return hatched(first, last, view.direction(normal))
+
+
+def _face(
+    held: _Constraint, used: Mapping[str, Vector], start: Vector, pose: Pose, world: Orientation
+) -> tuple[Vector, Vector]:
+    """A point of a wall, and the normal into it: away from the world's origin, else downwards."""
+    ((point, place),) = used.items()
+    at, normal = add(start, place), unit(_on_paper(held.slope(used, point), pose))
+    away = dot(subtract(at, start), normal)
+    is_outwards = away > 0 if abs(away) > NEAR else dot(normal, world.up) <= NEAR
+    return at, normal if is_outwards else scale(normal, -1.0)
+
+
+def in_walls(robot: Robot, numbers: RobotNumbers, world: Orientation) -> Callable[[Pose], float]:
+    """How far a pose has its joints and ends inside walls or near them, 0 where all are clear of them."""
+    known = [_Constraint(robot, numbers, one.entry) for one in holonomic(robot)]
+    alone = [held for held in known if [one.points for one in known].count(held.points) == 1]
+    start = scale(numbers.moved, -1.0)
+
+    def cost(pose: Pose) -> float:
+        places, total = dict(_places(robot, numbers, pose)), 0.0
+        for held in alone:
+            used = {point: places[point] for point in held.points}
+            if len(used) > 1 or not (used and held.is_of_points and held.is_straight(used)):
+                continue
+            if length(_on_paper(held.slope(used, held.points[0]), pose)) > NEAR:
+                at, normal = _face(held, used, start, pose, world)
+                rest = [point for point in pose.skeleton.path[1:] if distance(point, at) > _HOLDS]
+                room = (-dot(subtract(point, at), normal) * pose.view.size / _ROOM for point in rest)
+                total += sum(max(0.0, 1.0 - part) ** 2 for part in room)
+        return _INSIDE * total
+
+    return cost
 
 
 def _curve(

@@ -281,16 +281,23 @@ _DIFFERENCE, _CLOSE = 1e-6, 1e-9
 
 
 def held_pose(
-    robot: Robot, numbers: RobotNumbers, orientation: Orientation, zeros: Sequence[Node | Expr]
+    robot: Robot,
+    numbers: RobotNumbers,
+    orientation: Orientation,
+    zeros: Sequence[Node | Expr],
+    further: Callable[[Pose], float] = lambda _: 0.0,
 ) -> tuple[Pose, Mapping[str, float]] | None:
-    """A pose in which all formulas are 0, and the values of all symbols there; None where none is found."""
+    """A pose in which all formulas are 0, and the values of all symbols there; None where none is found.
+
+    `further` is what a pose costs beside the cost of any.
+    """
     options = options_of(robot, orientation)
     random = Random(_SEED)  # noqa: S311 - the same poses every time are wanted
     formulas = _Formulas(robot, numbers, zeros)
 
     def cost(choice: Choice) -> float:
         pose = pose_of(robot, numbers, orientation, choice)
-        return round(cost_of(pose, orientation) + taste(robot, pose, choice), 6)
+        return round(cost_of(pose, orientation) + taste(robot, pose, choice) + further(pose), 6)
 
     views = options[robot.n :]
     usual = tuple(values[len(values) // 2] for values in views)

@@ -17,7 +17,7 @@ from msgspec.structs import astuple
 
 from dynsolve.derivation.rules import derive
 from dynsolve.draw import paths, poses
-from dynsolve.draw.closings import NOT_HELD, Closings, closings
+from dynsolve.draw.closings import NOT_HELD, Closings, closings, in_walls
 from dynsolve.draw.drawn_points import as_drawn, given_lengths, ways_beside
 from dynsolve.draw.forces import FORCES, MOMENTS, TURNING, drawn_forces, forces, is_turning
 from dynsolve.draw.joint_angles import has_rings, is_right, joint_angles, names_of_angles, offsets, parallels
@@ -247,7 +247,8 @@ def allowed_pose(robot: Robot, values: RobotNumbers, world: Orientation) -> Pose
     """A pose that the constraints allow; None without constraints on poses, or where none is found."""
     if not holonomic(robot):
         return None
-    found = held_pose(robot, values, world, derive(robot)["hc"].entries)
+    walls = in_walls(robot, values, world)
+    found = held_pose(robot, values, world, derive(robot)["hc"].entries, walls)
     return found and dressed(robot, values, found[0])
 
 

@@ -6,10 +6,11 @@ import pytest
 
 from dynsolve.draw.closings import CURVES, MEETINGS, NOT_HELD, OTHERS, PIVOTS, WALLS, closings
 from dynsolve.draw.lengths import Length
+from dynsolve.draw.parts import RADIUS
 from dynsolve.draw.poses import Pose
 from dynsolve.draw.scene import allowed_pose
 from dynsolve.draw.skeleton import numbers, orientation
-from dynsolve.draw.vectors import subtract
+from dynsolve.draw.vectors import Vector, dot, subtract
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import read_problem
 from tests.unit.draw.pictures import drawn_text, names, overlapping
@@ -73,3 +74,21 @@ def test_the_length_between_two_ends_leads_from_one_to_the_other() -> None:
 
 def test_the_points_of_constraints_have_their_names() -> None:
     assert names(drawn_text(f"{ENDS}constraints: [A.x - B.x, A.y - B.y]\n"), "point") == ["A", "B"]
+
+
+@pytest.mark.parametrize(
+    ("arm", "kept", "into"),
+    [
+        (TWO, "tip.x - w", (1.0, 0.0, 0.0)),
+        (THREE, "tip.x - w", (1.0, 0.0, 0.0)),
+        (THREE, "w - tip.x", (1.0, 0.0, 0.0)),
+        (THREE, "tip.y + c", (0.0, -1.0, 0.0)),
+        (THREE, "tip.y", (0.0, -1.0, 0.0)),
+    ],
+)
+def test_an_arm_stays_on_the_free_side_of_a_wall(arm: str, kept: str, into: Vector) -> None:
+    """Every joint is clear of the wall by more than the radius of a joint."""
+    pose, _ = held(arm, kept)
+    face = dot(pose.skeleton.frames[-1].origin, into)
+    joints = [dot(part.center, into) for part in pose.parts.joints[1:]]
+    assert max(joints) < face - pose.view.space(RADIUS)
