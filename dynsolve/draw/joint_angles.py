@@ -46,6 +46,9 @@ _WIDER = 10.0
 _SMALL = 0.3
 """A smaller angle in space is shown by its sense alone."""
 
+_NO_ARC = 0.1
+"""A smaller angle in a plane leaves no arc beside the head of its arrow."""
+
 _BEYOND = 12.0
 """How far the lines of an angle reach beyond its arc."""
 
@@ -126,11 +129,13 @@ def is_right(offset: float) -> bool:
 
 def has_rings(pose: Pose) -> bool:
     """Whether some arrow shows no angle, but in which sense it grows."""
-    return not pose.view.flat and any(_has_ring(pose, leg) for _, leg in _turning(pose))
+    return any(_has_ring(pose, leg) for _, leg in _turning(pose))
 
 
 def _has_ring(pose: Pose, leg: Leg) -> bool:
     """Whether there is no room for an angle in space, or it is too small to be seen."""
+    if pose.view.flat:
+        return leg.turn < _NO_ARC
     return len(pose.skeleton.legs) > MANY or leg.turn < _SMALL
 
 
@@ -165,6 +170,9 @@ def _flat_angle(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes)
         end = moved(center, view.direction(direction), _ARC + _BEYOND)
         notes.draw(Path(paths.line(center, end), paths.GREY, 0.9, dashed=True))
     _offset(leg.center, leg, pose, notes)
+    if _has_ring(pose, leg):
+        _ring(pose, part, leg, node, notes)
+        return
     radius = (_ARC if abs(angle) > 0.5 else _ARC + 16.0) + _WIDER * _before_here(pose, part)
     p, q = scaled(first, radius), scaled(second, radius)
     short = angle - math.copysign(min(6.0 / radius, abs(angle) / 2), angle)
@@ -257,6 +265,8 @@ def _ring(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes) -> No
     center = view.point(part.center)
     lean = dot(part.axis, view.toward)
     front = subtract(view.toward, scale(part.axis, lean))
+    if view.flat:  # its ends leave room for the x axes
+        front = scale(leg.before, -1.0)
     front = unit(front) if length(front) > 0.05 else unit(cross(part.axis, view.up))
     side = cross(leg.turned_about, front)
     p, q = scaled(view.direction(front), _RING), scaled(view.direction(side), _RING)

@@ -341,8 +341,8 @@ def axis_arrow(origin: Point, axis: Vector, view: View, reach: float, notes: Not
 def world_axes(
     at: Point, index: Node, view: View, reach: float, notes: Notes, *, end_on: bool = True
 ) -> None:
-    """The axes of the world at a place on paper; without `end_on` none that is seen end on."""
-    for letter, axis in zip("xyz", IDENTITY, strict=True):
+    """The axes of the world at a place on paper; without `end_on` not one seen end on, over the others."""
+    for letter, axis in sorted(zip("xyz", IDENTITY, strict=True), key=lambda one: _is_end_on(one[1], view)):
         is_seen = not _is_end_on(axis, view)
         if is_seen or end_on:
             tip = axis_arrow(at, axis, view, reach, notes)

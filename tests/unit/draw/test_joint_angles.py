@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import pytest
 
@@ -13,7 +14,7 @@ from dynsolve.draw.lengths import TWISTS, twists
 from dynsolve.draw.paths import GREY, VARIABLE, flattened
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.poses import Notes, Pose, reach_of_axis
-from dynsolve.draw.scene import CORNERS, OFFSETS, scene
+from dynsolve.draw.scene import CORNERS, OFFSETS, RINGS, scene
 from dynsolve.draw.skeleton import numbers, orientation
 from dynsolve.draw.vectors import Point, Vector, add, cross, dot, scale
 from dynsolve.notation.printing import Style
@@ -206,3 +207,22 @@ def test_a_twist_leads_from_one_z_axis_to_the_next(convention: str) -> None:
         assert at == frames[row].origin and first == frames[row - 1].z
         assert turned == pytest.approx(frames[row].z)
         assert math.degrees(size) == pytest.approx((-50.0, 30.0)[row - 1])
+
+
+def test_an_angle_that_is_zero_as_it_is_drawn_is_shown_by_its_sense() -> None:
+    """Half a turn or more about the joint, in the plane and with its axis; the caption says what it is."""
+    text = (
+        "gravity: [0, 0, -g]\naxes:\n  - {turn: a, about: [0, -1, 0], through: [0, 0, 0]}\n"
+        "  - {turn: b, about: [0, 1, 0], through: [L*cos(30deg), 0, L*sin(30deg)]}\n"
+        "tip: [L*cos(30deg) + M, 0, L*sin(30deg)]\nzero: drawn\nfind: [DH]\n"
+    )
+    problem = read_problem(text.encode(), "drawn.yaml")
+    picture = scene(problem)
+    red = [path for path in picture.paths if path.stroke == VARIABLE and path.width == 1.4]
+    turns = []
+    for path in red:
+        pieces = list(flattened(path.commands))
+        steps = [math.atan2(a[1] - b[1], b[0] - a[0]) for a, b in pieces]
+        turns.append(sum(math.remainder(b - a, 2 * math.pi) for a, b in pairwise(steps)))
+    assert [turn > 0 for turn in turns] == [True, False]
+    assert min(map(abs, turns)) > math.pi / 2 and RINGS in picture.caption

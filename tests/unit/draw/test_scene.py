@@ -492,3 +492,18 @@ def test_opposite_axes_have_no_mark_with_one_sign(text: str, label: str, senses:
     picture = drawn_text(text)
     assert set(marks(picture, FRAME)) == senses
     assert label in [to_unicode(each.node, picture.style) for each in picture.labels]
+
+
+def test_an_axis_of_the_world_that_is_seen_end_on_is_whole() -> None:
+    """No other axis from the same place is drawn over its mark."""
+    text = (
+        "gravity: [0, 0, -g]\naxes: [{turn: a, about: [0, -1, 0], through: [0, 0, H]}]\n"
+        "tip: [L, 0, H]\nfind: [DH]\n"
+    )
+    assert sorted(marks(drawn_text(text), FRAME)) == [False, True, True]
+    picture = drawn_text(text)
+    rings = [k for k, path in enumerate(picture.paths) if (path.stroke, path.fill) == (FRAME, WHITE)]
+    for k in rings:
+        middle = bounds([picture.paths[k]]).center
+        over = (path for path in picture.paths[k:] if path.stroke == WHITE)
+        assert not any(math.dist(a, middle) < 1.0 for path in over for a, _ in flattened(path.commands))
