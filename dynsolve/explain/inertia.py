@@ -243,25 +243,27 @@ def stays_with_base(forms: Forms, body: Body, place: int) -> bool:
 
 
 def _shape(context: Context, body: Body) -> _Told | None:
-    """The formula of a uniform shape, with what its letters are here; None of others."""
+    """The formula of a uniform shape: in this body's letters, or with what its own are; None of others."""
     shape = body.shape
     if shape is None or not shape.formulas:
         return None
     signs: dict[Node, Node] = {Symbol(name): sign for name, sign in shape_letters(context.robot).items()}
-    moments = [
-        formula(
-            "I_{i}{axes} = {moment}",
-            i=letters.index_of(body.name),
-            axes=axes,
-            moment=mapped(moment, lambda part: signs.get(part, part)),
+    values = {letter: context.show(value) for letter, value in letters_of(body)}
+    given: list[Node] = []
+    if all(isinstance(value, Symbol) for value in values.values()):
+        signs = {Symbol(letter): value for letter, value in values.items()}
+    else:
+        own = (
+            equation(sign, measured(values[letter], "kg" if letter == MASS else "m"))
+            for letter, sign in shape_letters(context.robot).items()
+            if letter in values and sign != values[letter]
         )
-        for axes, moment in shape.formulas
-    ]
-    values = {
-        signs[Symbol(letter)]: measured(context.show(value), "kg" if letter == MASS else "m")
-        for letter, value in letters_of(body)
-    }
-    given = [equation(sign, value) for sign, value in values.items() if sign != value]
+        given = list(own)
+    alike: dict[Node, list[Node]] = {}
+    for axes, moment in shape.formulas:
+        name = formula("I_{i}{axes}", i=letters.index_of(body.name), axes=axes)
+        alike.setdefault(mapped(moment, lambda part: signs.get(part, part)), []).append(name)
+    moments = [equation(*names, moment) for moment, names in alike.items()]
     axis: Prose = ()
     if shape.axis:
         along = axis_named(context, body, shape.axis, f"{shape.axis} of the body's frame")

@@ -51,7 +51,10 @@ def steps(context: Context) -> Iterator[Step]:
         yield _row(context, joint)
     joints = context.robot.joints
     outwards = (*OUTWARDS, " ") if _are_multiplied(context.robot, joints) else ()
-    why = (*outwards, "The fourth column is the origin of the frame, the first three are its axes.")
+    own = [] if letters.has_base(context.robot) else [one.index for one in joints[:-1] if not one.parent]
+    rows = listed([equation(letters.H(context.robot, i), letters.A(i)) for i in own])
+    first = say(" {rows}.", rows=rows) if own else ()
+    why = (*outwards, "The fourth column is the origin of the frame, the first three are its axes.", *first)
     group = Group("H", f"The frames seen from the {context.ground}", why)
     for joint in joints:
         yield replace(_frame(context, joint.index), group=group)
