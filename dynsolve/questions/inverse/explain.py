@@ -355,6 +355,17 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None, before: Sequenc
         yield from _wrist_notes(forms.inverse_formulas, turn, step)
         return
     formulas, q = forms.inverse_formulas, Symbol(step.coordinate)
+    if needed := [*_needed(forms, step)]:
+        yield say("This needs {needed}.", needed=listed(needed))
+    if (there := _existence(formulas, step)) is not None:
+        text = "This equation has solutions where {there}; on the boundary, with =, the two are one."
+        yield say(text, there=there)
+    if zeros := _where_free(forms, step, before):
+        yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
+
+
+def _where_free(forms: InverseForms, step: Solved, before: Sequence[Solved]) -> list[Node]:
+    """The equations that hold where an unknown is free; none where it never is."""
     factors: list[Expr] = []
     match step:
         case OneLine(_, cosine, sine, value) if value.is_zero:
@@ -367,18 +378,26 @@ def _notes(forms: InverseForms, step: Solved, turn: Turn | None, before: Sequenc
             factors = [factor, value]
         case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
             factors = [factor for factor in (cosine, sine) if not factor.is_zero]
-    if needed := [*_needed(forms, step)]:
-        yield say("This needs {needed}.", needed=listed(needed))
-    if (there := _existence(formulas, step)) is not None:
-        text = "This equation has solutions where {there}; on the boundary, with =, the two are one."
-        yield say(text, there=there)
     divided = {factor for one in before for value in _divisors(one) for factor, _ in trig_factors(value)}
     left = [
         prod((f for f, _ in trig_factors(one) if f not in divided), start=one.ring.one) for one in factors
     ]
-    if factors and not never_hold(left) and _may_be_reached(forms, left):
-        zeros = [equation(forms.vanishing(factor), Number(0)) for factor in left]
-        yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
+    if not factors or never_hold(left) or not _may_be_reached(forms, left):
+        return []
+    return [equation(forms.vanishing(factor), Number(0)) for factor in left]
+
+
+def _is_free_somewhere(forms: InverseForms, solving: Solving) -> bool:
+    """Whether there are tasks at which some coordinate is free."""
+    before: list[Solved] = []
+    for part in solving.parts:
+        if part.turn is not None and part.turn.is_wrist:
+            return True
+        for step in part.solved:
+            if _where_free(forms, step, before):
+                return True
+            before.append(step)
+    return False
 
 
 def _may_be_reached(forms: InverseForms, zeros: Sequence[Expr]) -> bool:
@@ -660,7 +679,12 @@ def _branches(forms: InverseForms, solving: Solving) -> Step:
     inside = [one for one in there if one is not None and is_certain]
     which = "which" if len(choices) == 1 else "some of which"
     where = say(
-        f" where {{inside}}, {which} coincide on the boundary, and none elsewhere", inside=listed(inside)
+        " where {inside}, {which} coincide on the boundary, and none elsewhere{free}",
+        inside=listed(inside),
+        which=which,
+        free=", and infinitely many where a coordinate is free"
+        if inside and _is_free_somewhere(forms, solving)
+        else "",
     )
     there_are = say(f"{number}{{each_free}}{{where}}", each_free=each_free, where=where if inside else ())
     notes = (*_conditions(forms, task), *_free_coordinates(solving))
