@@ -862,18 +862,21 @@ def _beside_the_axis(m: Mechanism, s: Sentence) -> bool:
     return True
 
 
-@says("{} lies along it, from the first to the second, and {} is where it meets the axis of joint #.")
+@says(
+    "{} lies along it, from the first to the second[ where {}], and {} is where it meets the axis of joint #."
+)
 def _common_normal(m: Mechanism, s: Sentence) -> bool:
     """It is across both axes, and the origin is on the second; by Craig's convention on the first."""
     i = int(s.words[0])
     first = i if m.solution.robot.convention is Convention.MODIFIED else i - 1
     for p in m.points():
-        x, o = (np.ravel(m.value(node, p)) for node in s.formulas)
+        x, o = (np.ravel(m.value(node, p)) for node in (s.formulas[0], s.formulas[-1]))
+        towards = m.value(s.formulas[1].parts[0], p) if len(s.formulas) > 2 else 1
         a, b, own = m.axis(first, p), m.axis(first + 1, p), m.axis(i, p)
         across = x @ np.stack([a[:, 0], b[:, 0]], 1)
         if not near(across, 0) or not near(np.cross(o - own[:, 1], own[:, 0]), 0):
             return False
-        if not near(np.cross(b[:, 0], a[:, 0]), 0) and x @ (b[:, 1] - a[:, 1]) < -NEAR:
+        if not near(np.cross(b[:, 0], a[:, 0]), 0) and x @ (b[:, 1] - a[:, 1]) * towards < -NEAR:
             return False
     return True
 

@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from dynsolve.algebra.angles import Angle, angle_node
 from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.factors import is_nonnegative
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Table
 from dynsolve.document.sentences import say
@@ -60,8 +61,8 @@ _LIE = {
 
 _CHOSEN = {
     Relation.SKEW: (
-        ": they have one common normal. {x} lies along it, from the first to the second, and {o} is where it "
-        "meets {foot}."
+        ": they have one common normal. {x} lies along it, from the first to the second{where}, and {o} is "
+        "where it meets {foot}."
     ),
     Relation.INTERSECTING: (
         ", so that {a} is 0: {o} is the point where they do, and {x} is perpendicular to both. Of its two "
@@ -69,7 +70,7 @@ _CHOSEN = {
     ),
     Relation.PARALLEL: (
         ": every line across is a common normal. The one with {d} = 0 is taken, and {x} points from the "
-        "first to the second."
+        "first to the second{where}."
     ),
     Relation.COINCIDENT: (
         ": {x} may point anywhere across, and {o} be anywhere on it. Taken are {x_before}, and the origin "
@@ -81,7 +82,7 @@ _CHOSEN = {
 _CHOSEN_FOR_HAND = _CHOSEN | {
     Relation.PARALLEL: (
         ": every line across is a common normal. The one through the hand is taken, and {x} points from the "
-        "first to the second."
+        "first to the second{where}."
     ),
     Relation.COINCIDENT: ": {o} is the hand, and {x}, which may point anywhere across, is {x_before}.",
 }
@@ -208,6 +209,9 @@ def _why_frame(context: Context, normals: Normals, i: int) -> Prose:
         o=o,
         x_before=before,
         which=nearer if is_nearer else positive,
+        where=()
+        if is_nonnegative(normal.a)
+        else say(" where ${way} > 0$", way=Compactor(normals.drawing.ring).form(normal.a)),
         d=d,
         a=a,
         foot=following if context.standard else own,
