@@ -112,10 +112,13 @@ def _runs(turns: Sequence[Turn], coordinates: Collection[str], modified: bool) -
         run, absolute = end.run, end.absolute
         if turn.revolute:
             sign = _sign(between) if between is not None else 0
+            own = turn.theta
+            if own.degrees % 90 == 0:  # a quarter turn makes a sine of a cosine, and no other angle
+                own = Angle(own.terms)
             if sign:
-                absolute = turn.theta + absolute * sign
+                absolute = own + absolute * sign
             else:
-                run, absolute = len(runs), turn.theta
+                run, absolute = len(runs), own
                 runs.append([])
             runs[run].append(absolute)
             between = after

@@ -295,9 +295,13 @@ class RingAtoms:
         return self._angle_atom(name, self._groups[group].angle(multiples), order)
 
     def _angle_atom(self, name: str, angle: Angle, order: tuple[int, ...]) -> tuple[int, int]:
+        """(±1, atom) of the sine or cosine of an angle, without quarter turns: cos(q₂ - 90°) is sin q₂."""
         sign = 1
+        while angle.terms and angle.degrees and angle.degrees % 90 == 0:
+            sign = -sign if name == "cos" else sign  # cos(x + 90°) = -sin x, sin(x + 90°) = cos x
+            name, angle = _OTHER[name], Angle(angle.terms, (angle.degrees - 90) % 360)
         if self._reads_better_negated(angle):
-            angle, sign = -angle, (-1 if name == "sin" else 1)
+            angle, sign = -angle, (-sign if name == "sin" else sign)
         node = Function(name, angle_node(angle, self.ring.names))
         atom = self.table.number(node, Rank.TRIG, (*order, name != "sin"))
         self._functions[atom] = name, angle
