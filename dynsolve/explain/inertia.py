@@ -196,7 +196,7 @@ def _left_out(context: Context, body: Body, entering: list[str], about: str) -> 
             otherwise = "" if _in_frame(context, body) else f", the body's {entering[0]}-axis,"
     return say(
         "Of the tensor of {name} about {about} {entries}{axes}{otherwise} is given. The angular velocity "
-        "{along}, so nothing else enters, and the other entries are taken as 0.",
+        "{along}, so nothing else enters the energy, and the other entries are taken as 0.",
         name=name_of(body),
         about="its mass centre" if about == "the mass centre" else about,
         entries=entries,

@@ -96,6 +96,8 @@ class Role(Enum):
     DOWN = "angle|angles in the direction of gravity"
     FORCE = "force|forces from outside"
     MOMENT = "moment|moments from outside"
+    EXERTED = "force|forces that the arm exerts"
+    EXERTED_MOMENT = "moment|moments that the arm exerts"
     PLACE = "place of a|the point|points in its|their link|links"
     SPEED = "given velocity|velocities of the task"
     ACCELERATION = "given acceleration|accelerations of the task"
@@ -311,9 +313,13 @@ def _untold(role: AnyRole, *names: Iterable[str]) -> Iterator[tuple[AnyRole, str
 def _asked(robot: Robot) -> Iterator[tuple[AnyRole, str, Meaning]]:
     """Where the parameters of what is asked stand: in forces, points, rates, a state, constraints."""
     questions = robot.questions
+    exerted = [load for load in questions.loads if load.by_robot]
+    loads = [load for load in questions.loads if not load.by_robot]
     of_exact = (
-        (Role.FORCE, [load.force for load in questions.loads]),
-        (Role.MOMENT, [load.moment for load in questions.loads]),
+        (Role.FORCE, [load.force for load in loads]),
+        (Role.MOMENT, [load.moment for load in loads]),
+        (Role.EXERTED, [load.force for load in exerted]),
+        (Role.EXERTED_MOMENT, [load.moment for load in exerted]),
         (Role.SPEED, [questions.velocity]),
         (Role.ACCELERATION, [questions.acceleration]),
     )
@@ -360,9 +366,10 @@ def _along_z(robot: Robot, joint: Joint, name: str) -> Meaning:
     """What stands in d: alone, or beside a coordinate."""
     axis = "z{before}" if robot.convention is Convention.STANDARD else "z{link}"
     moved = [joint.d.ring.symbol(robot.coordinates[k].name) * rate for k, rate in joint.rates]
-    factor = _factor(joint.d - sum(moved, joint.d.ring.zero) if joint.variable == "d" else joint.d, name)
+    rest = joint.d - sum(moved, joint.d.ring.zero) if joint.variable == "d" else joint.d
+    factor = _factor(rest, name)
     share = _of_multiple(factor) if factor else ""
-    if joint.variable == "d":
+    if joint.variable == "d" and factor and len(rest) == 1:
         return Meaning("constant part of d in row {link} of the table", joint.index, share=share)
     if not factor:
         return _in_row(joint)

@@ -275,8 +275,8 @@ def _turns_about_an_axis(m: Mechanism, s: Sentence) -> bool:
 
 
 @says(
-    "The angular velocity is parallel to that axis, so nothing else enters, and ...",
-    "The angular velocity has components along these axes alone, so nothing else enters, and ...",
+    "The angular velocity is parallel to that axis, so nothing else enters the energy, and ...",
+    "The angular velocity has components along these axes alone, so nothing else enters the energy, and ...",
 )
 def _given_moments_suffice(m: Mechanism, s: Sentence) -> bool:
     """The entries that are not 0 are on the diagonal: along their axes alone the body turns."""

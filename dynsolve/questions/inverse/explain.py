@@ -213,7 +213,9 @@ def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: 
             told = [node for earlier in before for node in _sums_put_in(forms, earlier.equations, before)]
             put_in = [node for node in put_in if node not in told]
         why = (
-            *_origin([e.origin for e in step.equations], put_in),
+            *_origin(
+                [e.origin for e in step.equations], put_in, turns=not isinstance(step, Length | RootLength)
+            ),
             *say(_form(step), q=Symbol(step.coordinate)),
         )
     return Step(
@@ -247,19 +249,19 @@ def _sums_put_in(
                 yield forms.inverse_formulas.sum_of(left)
 
 
-def _origin(origins: Sequence[Origin], put_in: Sequence[Node]) -> Prose:
-    """How the equations are made; `put_in` are sums that are known."""
+def _origin(origins: Sequence[Origin], put_in: Sequence[Node], *, turns: bool) -> Prose:
+    """How the equations of an angle, which `turns`, or of a length are made; `put_in` are known sums."""
     first = say("{sums} is put in. ", sums=listed(put_in)) if put_in else ()
     direct = [origin for origin in origins if isinstance(origin, Direct)]
     if 0 < len(direct) < len(origins):
         made = [origin for origin in origins if origin not in direct]
-        return (*_origin(direct, put_in), *_origin(made, ()))
+        return (*_origin(direct, put_in, turns=turns), *_origin(made, (), turns=turns))
     match origins[0]:
         case Squared():
             return (
                 *first,
                 "Turning a vector does not change its length: in the sum of the squares the other angles "
-                "drop out, and one joint gives it its length (Paden-Kahan subproblem 3). ",
+                f"drop out, and one joint gives it its length{' (Paden-Kahan subproblem 3)' * turns}. ",
             )
         case Turned(_, _, name):
             text = "Turned back by {q}, the components have that angle on the left side alone. "

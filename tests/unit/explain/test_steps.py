@@ -239,8 +239,8 @@ def test_of_a_given_tensor_it_is_said_what_does_not_enter() -> None:
     why = said(step("planar-2r", "I_body1").why, "planar-2r")
     assert why == (
         "Of the tensor of body 1 about its mass centre the moment about the axis parallel to 𝐳₁ is given. "
-        "The angular velocity is parallel to that axis, so nothing else enters, and the other entries are "
-        "taken as 0. The superscript b is for the body's own axes."
+        "The angular velocity is parallel to that axis, so nothing else enters the energy, and the other "
+        "entries are taken as 0. The superscript b is for the body's own axes."
     )
     assert "angular velocity" not in said(
         step("elbow-3r", "I_body2").why, "elbow-3r"
