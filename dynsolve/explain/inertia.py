@@ -5,7 +5,7 @@ The first step of a body, its mass centre, is in `mass_centers`, how R I Rᵀ co
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import combinations_with_replacement
 
 from msgspec.structs import replace
@@ -43,7 +43,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.robot.model import AxesKind, Body
-from dynsolve.robot.shapes import MASS
+from dynsolve.robot.shapes import MASS, Shape
 
 _SOURCES = {
     "box": spong("7.2.1"),
@@ -120,6 +120,9 @@ def _tensor(context: Context, body: Body) -> Step:
         title=f"Inertia tensor of {name_of(body)} in its own frame",
         why=why,
         formula=moments,
+        task=_principal_moments(body, body.shape, shape_letters(context.robot))
+        if moments and body.shape
+        else None,
         source=spong("7.2.1") if moments is None or body.shape is None else _SOURCES[body.shape.kind],
         working=working,
         result=_entries(context, body, tensor)
@@ -247,23 +250,17 @@ def _shape(context: Context, body: Body) -> _Told | None:
     shape = body.shape
     if shape is None or not shape.formulas:
         return None
-    signs: dict[Node, Node] = {Symbol(name): sign for name, sign in shape_letters(context.robot).items()}
     values = {letter: context.show(value) for letter, value in letters_of(body)}
     given: list[Node] = []
     if all(isinstance(value, Symbol) for value in values.values()):
-        signs = {Symbol(letter): value for letter, value in values.items()}
+        moments = _principal_moments(body, shape, values)
     else:
-        own = (
-            equation(sign, measured(values[letter], "kg" if letter == MASS else "m"))
-            for letter, sign in shape_letters(context.robot).items()
-            if letter in values and sign != values[letter]
+        signs = shape_letters(context.robot)
+        moments = _principal_moments(body, shape, signs)
+        measures = (
+            (signs[letter], value, "kg" if letter == MASS else "m") for letter, value in values.items()
         )
-        given = list(own)
-    alike: dict[Node, list[Node]] = {}
-    for axes, moment in shape.formulas:
-        name = formula("I_{i}{axes}", i=letters.index_of(body.name), axes=axes)
-        alike.setdefault(mapped(moment, lambda part: signs.get(part, part)), []).append(name)
-    moments = [equation(*names, moment) for moment, names in alike.items()]
+        given = [equation(sign, measured(value, unit)) for sign, value, unit in measures if sign != value]
     axis: Prose = ()
     if shape.axis:
         along = axis_named(context, body, shape.axis, f"{shape.axis} of the body's frame")
@@ -274,7 +271,17 @@ def _shape(context: Context, body: Body) -> _Told | None:
         shape=SHAPES[shape.kind],
         axis=axis,
     )
-    return side_by_side(moments), (side_by_side(given),) if given else (), why, ""
+    return moments, (side_by_side(given),) if given else (), why, ""
+
+
+def _principal_moments(body: Body, shape: Shape, letter: Mapping[str, Node]) -> Node:
+    """I_xx, I_yy and I_zz of a uniform shape, its mass and dimensions as these letters."""
+    signs: dict[Node, Node] = {Symbol(name): sign for name, sign in letter.items()}
+    alike: dict[Node, list[Node]] = {}
+    for axes, moment in shape.formulas:
+        name = formula("I_{i}{axes}", i=letters.index_of(body.name), axes=axes)
+        alike.setdefault(mapped(moment, lambda part: signs.get(part, part)), []).append(name)
+    return side_by_side([equation(*names, moment) for moment, names in alike.items()])
 
 
 def _parallel_axis(context: Context, body: Body) -> Step:

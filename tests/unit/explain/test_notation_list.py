@@ -263,10 +263,9 @@ MEANINGS = [
      "s₁ = sin p₁, c₁ = cos p₁, s₂ = sin p₂, c₂ = cos p₂", ""),
     ("box-cylinder-rod-sphere", "r₁, r₄", "radius of body i", "m"),
     ("box-cylinder-rod-sphere", "b", "side of body 2 along its axes x and y", "m"),
-    ("box-cylinder-rod-sphere", "m", "mass of a uniform shape", "kg"),
+    ("numeric-2r", "m", "mass of a uniform shape", "kg"),
     ("box-cylinder-rod-sphere", "m₁, m₂, …, m₄, mᵢ", "mass of body i", "kg"),
-    ("box-cylinder-rod-sphere", "l, r, l_x, l_y, l_z",
-     "length, radius, side along x, side along y, side along z of a uniform shape", "m"),
+    ("numeric-2r", "l", "length of a uniform shape", "m"),
 ]  # fmt: skip
 
 
@@ -361,7 +360,8 @@ def test_what_an_exercise_asks_for_besides_has_its_letters_too() -> None:
 def test_the_letters_of_shapes_are_told_where_there_are_shapes() -> None:
     """The values of a task may be called x, y and z, as the sides of a box are."""
     assert lines("inf3480-rpr")["x, y, z"] == ("values of the task that are to be reached", "")
-    assert "of a uniform shape" in lines("box-cylinder-rod-sphere")["l, r, l_x, l_y, l_z"][0]
+    assert "of a uniform shape" in lines("numeric-2r")["l"][0]
+    assert not any("of a uniform shape" in meaning for meaning, _ in lines("crustcrawler-2r").values())
 
 
 @pytest.mark.parametrize("problem", ["planar-2r-reach", "in3140-rp"])

@@ -205,11 +205,12 @@ def test_a_tensor_is_not_called_like_its_entry() -> None:
     assert shown("elbow-3r", "I_body2")[0].startswith("𝐈₂ = ")
 
 
-def test_a_shape_with_its_formula_and_its_letters() -> None:
+def test_a_shape_with_its_formula_in_its_own_letters() -> None:
     each = step("box-cylinder-rod-sphere", "I_body1")
     assert each.formula is not None
-    assert to_unicode(each.formula) == "I_1xx = m (3r² + l²)/12, I_1yy = m r²/2, I_1zz = m (3r² + l²)/12"
-    assert [to_unicode(node) for node in each.working] == ["m = m₁, r = r₁, l = h"]
+    assert to_unicode(each.formula) == "I_1xx = I_1zz = m₁ (3r₁² + h²)/12, I_1yy = m₁ r₁²/2"
+    assert each.task is not None and each.working == ()
+    assert to_unicode(each.task) == "I_1xx = I_1zz = m (3r² + l²)/12, I_1yy = m r²/2"  # what a hint tells
     assert "uniform solid cylinder" in said(each.why, "box-cylinder-rod-sphere")
 
 

@@ -44,7 +44,7 @@ CASES = [
         "an offset",
         [turn(q1 + degrees(90)), turn(q2 - degrees(60))],
         False,
-        [q1 + degrees(90), q1 + q2 + degrees(30)],
+        [q1, q1 + q2 - degrees(60)],
     ),
     ("turned over twice", [turn(q1, 180), turn(q2, 180), turn(q3)], False, [q1, q1 - q2, q1 - q2 + q3]),
 ]

@@ -35,7 +35,7 @@ def test_what_is_divided_by_stands_in_the_summary() -> None:
     arm = "dh: [{theta: q1*, a: l}, {d: q2*, theta: 90deg, alpha: 90deg}, {d: q3*}]\n"
     text = told(arm + "task: [tip.x + tip.y, q2*cos(q1), q3]")
     assert "q₂ = r₂/c₁ Note: This needs c₁ ≠ 0." in text
-    assert "and none elsewhere. The solutions need c₁ ≠ 0." in text.partition("Summary")[2]
+    assert "where a coordinate is free. The solutions need c₁ ≠ 0." in text.partition("Summary")[2]
 
 
 def test_branches_that_are_one_because_an_angle_is_free_are_on_no_boundary() -> None:
