@@ -45,6 +45,7 @@ from dynsolve.problem.model import Problem
 from dynsolve.quantities.letters import key
 from dynsolve.questions.definite.derive import Definiteness
 from dynsolve.questions.definite.judge import fault
+from dynsolve.questions.judging import Missed
 from dynsolve.robot.model import Robot
 
 ROUNDED = "rounded"
@@ -115,6 +116,8 @@ class AnswerJudge:
             for index, i, j in _entries(base.name, compared)
         )
         judged = self._matrix(base, compared, entries) if entries else self._scalar(base, compared, whole)
+        if judged.verdict is Verdict.WRONG and compared.missed is not None:
+            judged = _missing(judged, compared.missed)
         nothing = self.explanations.of_nothing(compared) if judged.verdict is Verdict.WRONG else ()
         if not nothing:
             return judged
@@ -269,6 +272,32 @@ class AnswerJudge:
                     Verdict.CORRECT if right is not None else Verdict.FOLLOWS if follows else Verdict.WRONG
                 )
         return worst(verdicts)
+
+
+_BY_ITSELF = ("dimensions", "unknown_symbol", "odd_argument", "numbers_for_letters")
+"""What is told of an entry by itself, whatever the key is."""
+
+
+def _missing(judged: JudgedAnswer, missed: Missed) -> JudgedAnswer:
+    """An answer that misses an equation, which is told first, unless a slip explains it.
+
+    Where the key is one of many solutions, an entry that differs from its entry shows no slip by that.
+    """
+    if missed.is_one_of_many:
+        told = (
+            [d for entry in judged.entries for d in entry.diagnosis] if judged.entries else judged.diagnosis
+        )
+        against_key = [d for d in told if d.code not in _BY_ITSELF]
+        found = tuple(d for d in judged.diagnosis if d not in against_key)
+        entries = tuple(
+            replace(entry, diagnosis=tuple(d for d in entry.diagnosis if d not in against_key))
+            for entry in judged.entries
+        )
+        judged = replace(judged, diagnosis=found, entries=entries)
+    elif judged.diagnosis:
+        return judged
+    first = slip("equation", part=str(missed.row), other=missed.equation)
+    return replace(judged, diagnosis=(first, *judged.diagnosis))
 
 
 def _placed_in_chain(base: JudgedAnswer, chain: Chain) -> JudgedAnswer:

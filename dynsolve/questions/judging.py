@@ -164,6 +164,17 @@ class Case(Struct, frozen=True):
         return all(self.agrees(entry, row) for row, entry in enumerate(wanted))
 
 
+class Missed(Struct, frozen=True):
+    """An equation that an answer does not satisfy, in that row, from 1.
+
+    Where the key `is_one_of_many` solutions, or the nearest to one, what differs from it tells no slip.
+    """
+
+    equation: str
+    row: int
+    is_one_of_many: bool = False
+
+
 class Equivalence(Struct, frozen=True):
     """What is right though it is not the key: of which families or nodes, by which test, and its words."""
 

@@ -16,7 +16,7 @@ from dynsolve.answers.judging.answer_values import AnswerValue, as_value
 from dynsolve.answers.reading.vocabulary import ENERGY_LEVELS
 from dynsolve.quantities import action_families, families
 from dynsolve.quantities.stages import Stage
-from dynsolve.questions.judging import Case, Equivalence, right_as
+from dynsolve.questions.judging import Case, Equivalence, Missed, right_as
 from dynsolve.questions.parameters import REGRESSORS
 
 UP_TO_CONSTANT = "right; the letter that is added is the potential energy at the zero of height"
@@ -116,6 +116,12 @@ def other_solution(case: Case, stages: Iterable[Stage]) -> str:
     of = {case.node} if case.quantity is None else {case.node, case.quantity.family}
     rows = (*(row for stage in dict.fromkeys(stages) for row in _of_question(stage)), *_OF_THE_COURSE)
     return next((row.words for row in rows if row.of & of and row.holds(case)), "")
+
+
+def missed(case: Case, stages: Iterable[Stage]) -> Missed | None:
+    """The equation that an answer does not satisfy, where its question has one; `stages` as above."""
+    judges = (getattr(stage.part("judge"), "MISSED", {}) for stage in dict.fromkeys(stages))
+    return next((judge[case.node](case) for judge in judges if case.node in judge), None)
 
 
 # Answers in which the student may choose

@@ -24,6 +24,7 @@ from dynsolve.answers.judging.entry_comparison import (
 )
 from dynsolve.answers.judging.equivalences import (
     as_matrix,
+    missed,
     other_solution,
 )
 from dynsolve.answers.judging.graph import AnswerGraph
@@ -33,7 +34,7 @@ from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.index import Quantity
 from dynsolve.questions.constraints.judge import OwnConstraint
-from dynsolve.questions.judging import Case
+from dynsolve.questions.judging import Case, Missed
 from dynsolve.questions.parameters import REGRESSORS
 from dynsolve.questions.parameters.judge import forces_of, is_free, wrong_parameters
 
@@ -62,7 +63,8 @@ class KeyComparison(Struct, frozen=True):
     """An answer compared with the key: its entries as they are compared, and whether each is right.
 
     `other` says how it is right although it is not the key's.  `written` are
-    the vectors of an answer that is a space, in the ways in which they may be meant.
+    the vectors of an answer that is a space, in the ways in which they may be meant.  `missed` is an
+    equation that it does not satisfy.
     """
 
     answer_value: AnswerValue
@@ -72,6 +74,7 @@ class KeyComparison(Struct, frozen=True):
     obstacles: tuple[Obstacle, ...] = ()
     other: str = ""
     written: tuple[Matrix, ...] = ()
+    missed: Missed | None = None
 
     @property
     def correct(self) -> bool:
@@ -138,10 +141,10 @@ class KeyComparer:
         compared = KeyComparison(value, target, rows, right, obstacles)
         is_equation = value.answer.is_equation
         case = self._case(target.node, quantity, rows, is_equation)
-        stages = (one.family.stage for one in self.graph.quantities.values())
+        stages = [one.family.stage for one in self.graph.quantities.values()]
         other = "" if compared.correct else other_solution(case, stages)
         if not other:
-            return compared
+            return compared if compared.correct else replace(compared, missed=missed(case, stages))
         return replace(compared, right=tuple(tuple("" for _ in row) for row in rows), other=other)
 
     def _case(self, node: str, quantity: Quantity | None, rows: Rows, is_equation: bool) -> Case:

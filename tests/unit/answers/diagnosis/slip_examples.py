@@ -132,6 +132,16 @@ EXAMPLES: dict[str, Example] = {
         [["m2*L2_ddot - m2*L2*theta1_dot^2"], ["(I1zz + m2*L2^2)*theta1_ddot + 2*m2*L2*L2_dot*theta1_dot"]],
     ),
     "shape": Example(PLANAR_2R, "g", [["m2*lc2*g*cos(q1)"]]),
+    "equation": Example(
+        """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+velocity: [vx, vy]
+state: {q1: 0, q2: 90deg, q3: 0}
+find: [qd]
+""",
+        "qd",
+        [["vy/l1"], ["0"], ["0"]],
+    ),
     "span": Example(
         """
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]

@@ -131,6 +131,55 @@ def test_least_squares_where_there_is_no_solution() -> None:
     assert judged(text, "qd", [["0"], ["0"], ["0"]]).verdict == "wrong"
 
 
+PRR = """
+gravity: none
+dh: [{d: q1*, alpha: 90deg}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+task: [tip.x, tip.z]
+velocity: [vx, vz]
+state: {q2: 90deg, q3: -90deg}
+find: [qd]
+"""
+TALL = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+task: [tip.x, tip.y, q1+q2]
+velocity: [v, 0, 0]
+state: {q1: 0, q2: 90deg}
+find: [qd]
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "entries", "told"),
+    [
+        (PRR, ["vz", "-vx/l2", "0"], "ṙ = J_r q̇: see row 2."),
+        (PRR, ["vz", "0", "0"], "ṙ = J_r q̇: see row 1."),
+        (TALL, ["0", "-v/l2"], "J_rᵀ (J_r q̇ - ṙ) = 0: see row 1."),
+    ],
+)
+def test_of_many_solutions_the_equation_is_told_and_no_slip_against_one(
+    problem: str, entries: list[str], told: str
+) -> None:
+    """J_r q̇ = (-l₂ q̇₂, q̇₁ + l₃ (q̇₂ + q̇₃)): of what is no entry of the least solution no term is wrong."""
+    found = judged(problem, "qd", [[entry] for entry in entries])
+    assert [one.message for one in found.diagnosis] == [f"Your answer does not satisfy {told}"]
+
+
+def test_a_row_that_is_missed_by_rounding_is_not_told() -> None:
+    """-3 q̇₂ = 1 holds but for rounding, and q̇₁ + q̇₂ + q̇₃ = 1 is missed."""
+    numbers = PRR.replace("vx, vz", "1, 1").replace("a: l2", "a: 3").replace("a: l3", "a: 1")
+    found = judged(numbers, "qd", [["1"], ["-0.333"], ["5"]])
+    assert [one.message for one in found.diagnosis] == ["Your answer does not satisfy ṙ = J_r q̇: see row 2."]
+
+
+def test_where_one_solution_alone_exists_its_slip_is_told_and_else_the_equation() -> None:
+    slip = judged(ELBOW, "qd", [[QD[0]], [QD[1].replace("l2*cos", "-l2*cos")]])
+    assert "equation" not in {one.code for one in slip.diagnosis}
+    none = judged(ELBOW, "qd", [[f"{QD[0]}*(l1 + l2)^3*sin(q1)^2 + vx^2"], [QD[1]]])
+    assert [one.message for one in none.diagnosis][:1] == [
+        "Your answer does not satisfy ṙ = J_r q̇: see row 1."
+    ]
+
+
 @pytest.mark.parametrize(
     ("written", "name"),
     [
