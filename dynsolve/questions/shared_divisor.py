@@ -24,6 +24,9 @@ from dynsolve.quantities import letters
 FEWEST_TERMS = 3
 """A divisor of fewer is read as quickly as its name."""
 
+MOST_TERMS = 60
+"""Above the line of an entry with more the letter is not looked for: its factors alone would take long."""
+
 
 class SharedDivisor(Struct, frozen=True):
     """What the letter Δ stands for; whether that is det D."""
@@ -68,8 +71,11 @@ class SharedDivisor(Struct, frozen=True):
         if rest is None:
             return form
         times, left = (Expr(rest.ring, part) for part in divmod(one.numerator.poly, self.value.poly))
-        if not rest.is_number or len(times) + len(left) < len(one.numerator):
+        is_inside = not rest.is_number or len(times) + len(left) < len(one.numerator)
+        if is_inside and len(one.numerator) <= MOST_TERMS:
             return self._with_letter(times, left, rest)
+        if not rest.is_number:
+            return form
         ratio = 1 / rest.number
         above = one.numerator * ratio
         number = 1 if self.products.decimal else content([above]).denominator
