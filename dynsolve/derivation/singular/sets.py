@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from itertools import combinations, product
+from math import comb
 
 from msgspec import Struct, field
 
@@ -297,8 +298,10 @@ class _Cases(Struct, dict=True):
 
 
 def minors_work(matrix: Matrix, size: int) -> int:
-    """The products of terms that all minors of a size may come to."""
-    return sum(map(work, parts(matrix, size)))
+    """The products of terms that all minors of a size may come to; of very many minors their number."""
+    rows, columns = matrix.shape
+    count = comb(rows, size) * comb(columns, size)
+    return count if count > MOST_CORE_WORK else sum(map(work, parts(matrix, size)))
 
 
 def _without(value: Expr, shared: Set[Expr]) -> Expr:
