@@ -16,6 +16,8 @@ holds a single unknown in a known form, that unknown is solved for, and counts a
                   is left
     numeric       configurations that reach numbers, by Newton's method from many starts
     forms         the solutions as formulas: θ₂ = ± arccos(…), θ₁ = atan2(y, x) - …
+    existence     under which conditions an unknown has values, and when it is free
+    branches      the step that counts the solutions
     figures       the triangles by which a solution is seen
     target        configurations that reach numbers, as steps
 

@@ -1,29 +1,22 @@
-"""Steps of the inverse kinematics: one unknown after the other, and the branches."""
+"""Steps of the inverse kinematics: what is asked, and one unknown after the other."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from math import inf, prod
+from collections.abc import Collection, Iterator, Sequence
+from math import inf
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.factors import is_never_zero, trig_factors
 from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.algebra.ring import Expr
-from dynsolve.algebra.sampling import Transfer
-from dynsolve.derivation.configurations import Conditions
-from dynsolve.derivation.elimination import ParameterSigns
-from dynsolve.derivation.singular.sets import Special, TooLong, common_zeros, existence
-from dynsolve.derivation.singular.zeros import never_hold
-from dynsolve.document import Prose, Table
+from dynsolve.document import Prose
 from dynsolve.document.books import craig, spong
-from dynsolve.document.sentences import opened, paragraph, say
-from dynsolve.errors import AlgebraError
+from dynsolve.document.sentences import opened, say
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import NOTED, RESUMED, Detail, Line, Step
 from dynsolve.explain.step import Part as Shown
 from dynsolve.explain.writing import agreeing, and_joined, listed, turns
-from dynsolve.notation.build import cost, power, split_sign, times, total
+from dynsolve.notation.build import power, split_sign, times, total
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
     ONE,
@@ -33,7 +26,6 @@ from dynsolve.notation.tree import (
     Node,
     Number,
     Reference,
-    Relation,
     Symbol,
     column,
     equation,
@@ -42,6 +34,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
+from dynsolve.questions.inverse.branches import Branches, id_of_branches
 from dynsolve.questions.inverse.derive import REDUNDANT, is_redundant
 from dynsolve.questions.inverse.equations import (
     Combined,
@@ -55,15 +48,13 @@ from dynsolve.questions.inverse.equations import (
     Turned,
     lineage,
 )
+from dynsolve.questions.inverse.existence import Existence
 from dynsolve.questions.inverse.figures import figure_of
 from dynsolve.questions.inverse.forms import InverseForms, InverseFormulas
-from dynsolve.questions.inverse.solving import FixedPoint, Part, Solving, Turn
+from dynsolve.questions.inverse.solving import FixedPoint, Part, Turn
 from dynsolve.questions.inverse.subproblems import Length, OneLine, Remainder, RootLength, Solved, TwoLines
-from dynsolve.questions.inverse.target import target_steps, task_of
+from dynsolve.questions.inverse.target import target_steps
 from dynsolve.robot.model import Robot
-
-SHORT = 4
-"""Formulas with more operations are not repeated in the table of the branches."""
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -76,7 +67,7 @@ def steps(context: Context) -> Iterator[Step]:
         r = context.values["pose" if _is_pose(context.robot) else "r"]
         is_free = is_redundant(r)
         yield Step(
-            id=_id_of_branches(forms),
+            id=id_of_branches(forms),
             title="Infinitely many configurations" if is_free else "No closed form was found",
             why=_spare(context, r)
             if is_free
@@ -90,8 +81,9 @@ def steps(context: Context) -> Iterator[Step]:
             uses=(),
         )
     else:
-        yield from _unknowns(forms, forms.solved.solving)
-        yield _branches(forms, forms.solved.solving)
+        existence = Existence(forms, forms.solved.solving)
+        yield from _unknowns(forms, existence)
+        yield Branches(forms, existence).step()
     if forms.target is not None:
         yield from target_steps(forms.target)
 
@@ -168,29 +160,25 @@ def _of_pieper(robot: Robot) -> Iterator[Prose]:
         )
 
 
-def _id_of_branches(forms: InverseForms) -> str:
-    """Where the target is given in numbers, the answer comes after the branches."""
-    return "inverse" if forms.target is None else "inverse_branches"
-
-
 # -- one unknown -----------------------------------------------------------------------------------
 
 
-def _unknowns(forms: InverseForms, solving: Solving) -> Iterator[Step]:
+def _unknowns(forms: InverseForms, existence: Existence) -> Iterator[Step]:
     """The unknowns, one after the other."""
     before: tuple[Solved, ...] = ()
     general: list[Node | None] = []
-    for number, part in enumerate(solving.parts, 1):
+    for number, part in enumerate(existence.solving.parts, 1):
         yield from _starting(forms.inverse_formulas, part, number, before)
         for solved in part.solved:
-            found = _unknown(forms, solved, before, part)
+            notes = tuple(existence.notes(solved, part))
+            found = _unknown(forms, solved, before, notes)
             told = found.formula in general
             yield replace(found, normal=found.normal & ~Shown.FORMULA) if told else found
             general.append(found.formula)
             before = (*before, solved)
 
 
-def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: Part) -> Step:
+def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], notes: tuple[Prose, ...]) -> Step:
     """How one unknown is found."""
     formulas = forms.inverse_formulas
     known = {e.expr for earlier in before for e in lineage(earlier.equations)}
@@ -229,7 +217,7 @@ def _unknown(forms: InverseForms, step: Solved, before: Sequence[Solved], part: 
         concluding=("So:",) if lines else (),
         result=results,
         figure=figure_of(forms.robot, formulas, step),
-        notes=tuple(_notes(forms, step, part.turn, before)),
+        notes=notes,
         normal=NOTED if starts_anew or not lines else RESUMED,
         uses=("inverse_task", *(f"inverse_{s.coordinate}" for s in before if s.coordinate in shown)),
     )
@@ -335,115 +323,6 @@ def _general(step: Solved) -> Node | None:
             either = formula("atan2({B}, {A}) ± atan2(sqrt({A}² + {B}² - {X}²), {X})", **both)
             return formula("{A} cos {psi} + {B} sin {psi} = {X} ⇒ {psi} = {either}", either=either, **both)
     return None
-
-
-def _existence(formulas: InverseFormulas, step: Solved) -> Node | None:
-    """The condition under which an unknown has its values; None where it always has."""
-    match step:
-        case OneLine(_, cosine, sine, value) if value.is_zero:
-            return None
-        case OneLine(_, cosine, sine, value) if cosine.is_zero or sine.is_zero:
-            return formula("-1 ≤ {ratio} ≤ 1", ratio=formulas.ratio(value, cosine + sine))
-        case OneLine():
-            return formulas.boundary(step)
-        case RootLength() if not step.always_exists:
-            return formula("{radicand} ≥ 0", radicand=formulas.radicand(step))
-    return None
-
-
-def _notes(forms: InverseForms, step: Solved, turn: Turn | None, before: Sequence[Solved]) -> Iterator[Prose]:
-    """When there is a solution, and when there are infinitely many."""
-    if turn is not None and turn.is_wrist:
-        yield from _wrist_notes(forms.inverse_formulas, turn, step)
-        return
-    formulas, q = forms.inverse_formulas, Symbol(step.coordinate)
-    if needed := [*_needed(forms, step)]:
-        yield say("This needs {needed}.", needed=listed(needed))
-    if (there := _existence(formulas, step)) is not None:
-        text = "This equation has solutions where {there}; on the boundary, with =, the two are one."
-        yield say(text, there=there)
-    if zeros := _where_free(forms, step, before):
-        yield say("Where {zeros}, {q} is free: infinitely many solutions.", zeros=listed(zeros), q=q)
-
-
-def _where_free(forms: InverseForms, step: Solved, before: Sequence[Solved]) -> list[Node]:
-    """The equations that hold where an unknown is free; none where it never is."""
-    factors: list[Expr] = []
-    match step:
-        case OneLine(_, cosine, sine, value) if value.is_zero:
-            factors = [sine, cosine]
-        case OneLine(_, cosine, sine, value) if not (cosine.is_zero or sine.is_zero):
-            factors = [sine, cosine, value]
-        case OneLine(_, cosine, sine, value) if _moves_nothing(forms, step, cosine + sine):
-            factors = [cosine + sine, value]
-        case Length(_, factor, value) if _moves_nothing(forms, step, factor):
-            factors = [factor, value]
-        case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
-            factors = [factor for factor in (cosine, sine) if not factor.is_zero]
-    divided = {factor for one in before for value in _divisors(one) for factor, _ in trig_factors(value)}
-    left = [
-        prod((f for f, _ in trig_factors(one) if f not in divided), start=one.ring.one) for one in factors
-    ]
-    if not factors or never_hold(left) or not _may_be_reached(forms, left):
-        return []
-    return [equation(forms.vanishing(factor), Number(0)) for factor in left]
-
-
-def _is_free_somewhere(forms: InverseForms, solving: Solving) -> bool:
-    """Whether there are tasks at which some coordinate is free."""
-    before: list[Solved] = []
-    for part in solving.parts:
-        if part.turn is not None and part.turn.is_wrist:
-            return True
-        for step in part.solved:
-            if _where_free(forms, step, before):
-                return True
-            before.append(step)
-    return False
-
-
-def _may_be_reached(forms: InverseForms, zeros: Sequence[Expr]) -> bool:
-    """Whether a task at which these are 0 may be that of a configuration: x = y = 0 is not, if e > l."""
-    assert forms.solved is not None
-    solving = forms.solved.solving
-    ring = solving.ring
-    try:
-        values = zip(
-            solving.values, map(Transfer(solving.task.ring, ring), solving.task.entries), strict=True
-        )
-        images = {ring.symbol_indices[name, 0]: value.poly for name, value in values}
-        special = Special(ParameterSigns())
-        found = common_zeros([ring.put(one, images) for one in zeros], special)
-    except (TooLong, AlgebraError):  # the ring has not every angle
-        return True
-    return not special.is_empty or any(existence(one) is not None for one in found)
-
-
-def _moves_nothing(forms: InverseForms, step: Solved, divisor: Expr) -> bool:
-    """Whether a coordinate does not move the task where what it is divided by is 0."""
-    assert forms.solved is not None
-    ring, components = divisor.ring, forms.solved.solving.components
-    place = ring.names.index(step.coordinate)
-    slopes = [ring.diff(one.right, place) for one in components]
-    return not is_never_zero(divisor) and all(slope.quotient(divisor) is not None for slope in slopes)
-
-
-def _needed(forms: InverseForms, step: Solved) -> Iterator[Node]:
-    """That what is divided by is not 0, where it may be."""
-    for divisor in _divisors(step):
-        if not is_never_zero(divisor):
-            yield formula("{divisor} ≠ 0", divisor=forms.vanishing(divisor))
-
-
-def _divisors(step: Solved) -> Iterator[Expr]:
-    """What a step divides by."""
-    match step:
-        case OneLine(_, cosine, sine, value) if not value.is_zero and (cosine.is_zero or sine.is_zero):
-            yield cosine + sine
-        case TwoLines() if not step.is_rotation:
-            yield step.determinant
-        case Length(_, divisor) | RootLength(_, divisor):
-            yield divisor
 
 
 # -- the way to an unknown: components turned, squared and added, then sorted ----------------------
@@ -642,165 +521,6 @@ def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[S
         listed=True,
         uses=("inverse_task", *(f"inverse_{step.coordinate}" for step in before)),
     )
-
-
-def _wrist_notes(formulas: InverseFormulas, turn: Turn, step: Solved) -> Iterator[Prose]:
-    """Where a spherical wrist is singular; said with its first angle that has two values."""
-    if not isinstance(step, OneLine):
-        return
-    first, middle, last = map(Symbol, turn.names)
-    where = formula("sin {middle} = 0", middle=middle)
-    if len(turn.made[2, 2]) != 1:  # else it is ± the cosine of the angle between the outer axes
-        where = Relation((formulas.form(turn.known[2, 2]), Number(1)), ("= ±",))
-    text = (
-        "Where {where} the first and the last axis of the wrist are one line: the wrist is singular. Only "
-        "the sum of {first} and {last}, or their difference, is given then, and one of them is free: "
-        "infinitely many solutions."
-    )
-    yield say(text, where=where, first=first, last=last)
-
-
-# -- the branches ----------------------------------------------------------------------------------
-
-
-def _branches(forms: InverseForms, solving: Solving) -> Step:
-    """All of them, each put into r(q); a table where not every choice goes with every other."""
-    names, count = [step.coordinate for step in solving.solved], len(forms.inverse)
-    task = task_of(forms.robot)
-    choices = _choices(forms, solving)
-    is_free = forms.target is None and len(set(forms.when)) <= 1 and _is_every_choice(forms, choices)
-    one, several = ("solution", "solutions") if forms.target is None else ("branch", "branches")  # of numbers
-    tested = names_in(*(side for when in forms.when for one in when for side in one.sides))
-    is_tested = not tested.isdisjoint(names)
-    is_certain = not is_tested and _exist_together(forms.inverse_formulas, choices.values())
-    number = f"there are {'' if is_certain else 'at most '}{count} {several}"
-    number = number if count > 1 else f"there is one {one}"
-    free = [Symbol(name) for name in solving.free]
-    each_free = say(" for each value of {free}", free=listed(free)) if free else ()
-    there = [_existence(forms.inverse_formulas, step) for step in choices.values() if forms.target is None]
-    inside = [one for one in there if one is not None and is_certain]
-    which = "which" if len(choices) == 1 else "some of which"
-    where = say(
-        " where {inside}, {which} coincide on the boundary, and none elsewhere{free}",
-        inside=listed(inside),
-        which=which,
-        free=", and infinitely many where a coordinate is free"
-        if inside and _is_free_somewhere(forms, solving)
-        else "",
-    )
-    there_are = say(f"{number}{{each_free}}{{where}}", each_free=each_free, where=where if inside else ())
-    notes = (*_conditions(forms, task), *_free_coordinates(solving))
-    if is_free and choices:
-        two = "{q} has two values: {there_are}."
-        gives = f"every choice {'gives' if is_certain else 'that exists gives'} a solution"
-        each = f"{{q}} have two values each{'' if is_tested else f', and {gives}'}: {{there_are}}."
-        chosen = listed([Symbol(step.coordinate) for step in choices.values()])
-        together = say(each if len(choices) > 1 else two, q=chosen, there_are=there_are)
-    else:
-        together = say(f"{opened(number)}{{each_free}}.", each_free=each_free)
-    starts = tuple(f"inverse_{what}_{number}" for what, number in _defined(solving))
-    table = None if is_free or not choices else _table(forms, choices)
-    shown = [node for step in solving.solved for node in forms.inverse_formulas.solutions(step)]
-    if table is not None:
-        shown = [cell for row in table.rows for cell in row if isinstance(cell, Node)]
-    same = f"A coordinate that stands in a formula is that of the same {'solution' if is_free else 'line'}."
-    parts = [part for part in solving.parts if part.turn is None or not part.turn.is_wrist]
-    needed = [node for part in parts for step in part.solved for node in _needed(forms, step)]
-    said = ["{together}"] if is_free and choices else []
-    said += [f"The {f'{several} need' if count > 1 else f'{one} needs'} {{needed}}."] if needed else []
-    is_of_others = count > 1 and not names_in(*shown).isdisjoint(names)
-    return Step(
-        id=_id_of_branches(forms),
-        title=f"The {one}" if count == 1 else f"The {count} {several}" if is_certain else f"The {several}",
-        why=say(
-            "{together} {each} is put into {task} to see that it gives what is asked. {same}",
-            together=together,
-            each="Each" if count > 1 else "It",
-            task=task,
-            same=same if is_of_others else "",
-        ),
-        table=table,
-        notes=notes,
-        outcome=paragraph((say(" ".join(said), together=together, needed=listed(needed)), *notes)),
-        normal=NOTED,
-        detail=Detail.BRIEF,
-        uses=(*(f"inverse_{name}" for name in names), *starts),
-        hint=say(
-            "Put every choice among these into {task}: those that give what is asked are the solutions.",
-            task=task,
-        ),
-        hint_title="The solutions",
-    )
-
-
-def _defined(solving: Solving) -> Iterator[tuple[str, int]]:
-    """The steps that define names for what the unknowns are found from, by their kinds and numbers."""
-    for number, part in enumerate(solving.parts, 1):
-        if part.turn is not None and part.turn.definitions:
-            yield "turn", number
-        if part.point is not None and part.point.definitions:
-            yield "point", number
-
-
-def _choices(forms: InverseForms, solving: Solving) -> dict[int, Solved]:
-    """The unknowns that have two values, by their places among all."""
-    found = enumerate(solving.solved)
-    return {k: step for k, step in found if len(forms.inverse_formulas.solutions(step)) > 1}
-
-
-def _exist_together(formulas: InverseFormulas, choices: Collection[Solved]) -> bool:
-    """Whether no choice decides whether another unknown has values at all."""
-    conditions = [_existence(formulas, step) for step in choices]
-    names = names_in(*(there for there in conditions if there is not None))
-    return names.isdisjoint(step.coordinate for step in choices)
-
-
-def _is_every_choice(forms: InverseForms, choices: Collection[int]) -> bool:
-    """Whether every choice of a value goes with every other."""
-    assert forms.solved is not None
-    return len(forms.solved.branches) == prod(2 for _ in choices)
-
-
-def _table(forms: InverseForms, choices: Mapping[int, Solved]) -> Table:
-    """A branch a row: the values of the unknowns that have two, or which of them is meant."""
-    assert forms.solved is not None
-    rows = []
-    for number, branch in enumerate(forms.solved.branches, 1):
-        row: list[Node | str] = [str(number)]
-        for k, step in choices.items():
-            solutions, index = forms.inverse_formulas.solutions(step), branch.choice[k]
-            signs = forms.inverse_formulas.has_signs(step)
-            which = (("with +", "with -") if signs else ("the first", "the second"))[index]
-            row.append(solutions[index] if cost(solutions[index]) <= SHORT else which)
-        rows.append(tuple(row))
-    return Table(("", *(Symbol(step.coordinate) for step in choices.values())), tuple(rows))
-
-
-def _conditions(forms: InverseForms, task: Node) -> Iterator[Prose]:
-    """Where the branches are solutions, those with the same conditions together."""
-    lines: dict[Conditions, list[str]] = {}
-    for number, when in enumerate(forms.when, 1):
-        lines.setdefault(when, []).append(str(number))
-    for when, numbers in lines.items():
-        if when:
-            which = "Line|Lines {numbers} holds|hold" if len(lines) > 1 else "This|They holds|hold"
-            text = " where {conditions} alone: the joints give {task} no other values."
-            conditions = listed([equation(*one.sides) for one in when])
-            if len(when) == len(forms.robot.questions.reached):
-                text = " only where {task} is then what is given: the joints give it no other values."
-            which = agreeing(which, len(numbers))
-            yield say(which + text, numbers=listed(numbers), conditions=conditions, task=task)
-
-
-def _free_coordinates(solving: Solving) -> Iterator[Prose]:
-    sums = [step for step in solving.solved if isinstance(step, Remainder)]
-    bound = [name for name in solving.free if any(name in dict(step.others) for step in sums)]
-    unused = [name for name in solving.free if name not in bound]
-    if bound:
-        yield say("{q} may be anything; the others follow.", q=listed([*map(Symbol, bound)]))
-    if unused:
-        text = agreeing("{q} does|do not change the task, and may be anything.", len(unused))
-        yield say(text, q=listed([*map(Symbol, unused)]))
 
 
 # -- hints -----------------------------------------------------------------------------------------
