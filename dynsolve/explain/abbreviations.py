@@ -40,7 +40,7 @@ from dynsolve.explain.entry_formulas import (
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.recurring import Definition, exchanged, name_recurring, rewritten
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, negated, split_sign, times, total
+from dynsolve.notation.build import negated, split_sign, times, total
 from dynsolve.notation.differentiation import product_of
 from dynsolve.notation.printing import flat_factors
 from dynsolve.notation.tree import (
@@ -59,10 +59,7 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 from dynsolve.robot.names import names_taken
 
-__all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "is_long"]
-
-LONG = 1500
-"""The operations in D, C and g together from which on names make them readable: some five pages."""
+__all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate"]
 
 CONSTANT, RECURRING, SINGLE = "kappa", "sigma", ("h", "kappa", "chi")
 
@@ -267,13 +264,6 @@ def symbols_put(symbols: Iterable[Definition], node: Node) -> Node:
     return node
 
 
-def is_long(forms: Forms) -> bool:
-    """Whether D, C and g written out are too long to be read."""
-    known: dict[int, tuple[Node, int]] = {}
-    rows = (row for name in ("D", "C", "g") for row in forms.matrix(name).rows)
-    return sum(cost(entry, known) for row in rows for entry in row) > LONG
-
-
 def abbreviate(forms: Forms, constants: bool | None = None) -> Abbreviated:
     """The explicit model of a robot, its constants and what recurs in it named.
 
@@ -283,7 +273,7 @@ def abbreviate(forms: Forms, constants: bool | None = None) -> Abbreviated:
     BaseParameters = Stage.PARAMETERS.part("explain").BaseParameters
 
     values = forms.values
-    if not (is_long(forms) if constants is None else constants):
+    if not (forms.are_long if constants is None else constants):
         symbols = {key: forms.christoffel(*key) for key in values["christoffel"]}
         return _assembled(forms, (), forms.matrix("D"), forms.matrix("g"), symbols)
     base = BaseParameters.of(forms.robot, values["D"], values["g"], CONSTANT)

@@ -65,7 +65,7 @@ class Context(Struct, frozen=True):
     @property
     def is_short(self) -> bool:
         """Whether every line is shown; of longer arms they would fill pages."""
-        return is_short(self.robot, self.values)
+        return is_short(self.robot, self.forms)
 
     def has_friction(self, k: int) -> bool:
         """Whether a coordinate (from 0) has friction."""
@@ -143,18 +143,16 @@ MOST_JOINTS = 3
 """Up to this number of coordinates every line is shown."""
 
 MOST_TERMS = 20
-"""The terms in the last frame up to which more coordinates are like these: an arm with parallel axes."""
-
-MOST_TERMS_OF_D = 60
-"""The same of the inertia matrix of a model."""
+"""The terms in the last frame up to which more coordinates without dynamics are like these."""
 
 
-def is_short(robot: Robot, values: Derivation) -> bool:
-    """Whether there are few coordinates; or many, and but few terms in the last frame, or in D of a model."""
+def is_short(robot: Robot, forms: Forms) -> bool:
+    """Whether there are few coordinates; or many, and D, C and g, or only the last frame, are not long."""
     if robot.n <= MOST_JOINTS:
         return True
-    name, most = (f"H{len(robot.joints)}", MOST_TERMS) if robot.has_table else ("D", MOST_TERMS_OF_D)
-    return sum(len(entry.poly) for entry in values[name].entries) <= most
+    if robot.has_dynamics:
+        return not forms.are_long
+    return sum(len(entry.poly) for entry in forms.values[f"H{len(robot.joints)}"].entries) <= MOST_TERMS
 
 
 # -- how a robot's formulas look: the shorthands s_1 and c_12, decimal numbers ---------------------

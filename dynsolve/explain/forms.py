@@ -56,6 +56,9 @@ from dynsolve.robot.model import Body, Convention, Robot
 from dynsolve.robot.typed_sums import deflection, printed_sums
 from dynsolve.robot.units import INERTIA, MASS
 
+LONG_MODEL = 1500
+"""The operations in D, C and g together from which on names make them readable: some five pages."""
+
 LONG = 300
 """From this number of terms on a value is put together from parts."""
 
@@ -114,6 +117,13 @@ class Forms:
     def collecting(self) -> tuple[list[str], list[frozenset[str]]]:
         """The arguments of this robot's compactor: its masses and inertias, its parallel joints."""
         return leading_names(self.robot), parallel_coordinates(self.robot)
+
+    @cached_property
+    def are_long(self) -> bool:
+        """Whether D, C and g written out are too long to be read."""
+        known: dict[int, tuple[Node, int]] = {}
+        rows = (row for name in ("D", "C", "g") for row in self.matrix(name).rows)
+        return sum(cost(entry, known) for row in rows for entry in row) > LONG_MODEL
 
     def __call__(self, name: str) -> Node:
         """The compact tree of a value, a `tree.Matrix` for a matrix."""

@@ -157,7 +157,7 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
     None where it is short without, or the arm longer.
     """
     robot, C = forms.robot, forms("C")
-    if not is_short(robot, forms.values) or not isinstance(C, Matrix):
+    if not is_short(robot, forms) or not isinstance(C, Matrix):
         return None
     taken = short_names_taken(robot)
     free = free_names(RECURRING, taken)

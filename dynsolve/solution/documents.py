@@ -33,6 +33,7 @@ from dynsolve.document.books import GAUTIER_KHALIL, KHALIL_DOMBRE, cited, of_sec
 from dynsolve.document.sentences import say
 from dynsolve.errors import attempted
 from dynsolve.explain.abbreviations import CONSTANTS_LIST, SUMS_LIST, Abbreviate, Abbreviated, Definition
+from dynsolve.explain.context import MOST_JOINTS
 from dynsolve.explain.given import statement, to_be_found
 from dynsolve.explain.notation_list import in_a_sentence, letters_beside, notation, shorthands_in
 from dynsolve.explain.signs import formulas_in
@@ -267,9 +268,10 @@ class _Parts(Struct, dict=True):
     @property
     def is_short(self) -> bool:
         """Whether the summary has the model itself, and not where it is."""
-        if self.solution.is_short or (self.short is not None and self.short.long):
+        robot = self.solution.robot
+        if robot.n <= MOST_JOINTS or (self.short is not None and self.short.long):
             return self.solution.is_short
-        return self.detail is Detail.RESULTS or stands_twice(self.solution.robot, self.steps)
+        return self.detail is Detail.RESULTS or stands_twice(robot, self.steps)
 
     def opening(self, rounds: bool) -> Iterator[Block]:
         """The title, the source, and how numbers are printed, some of which may be rounded."""

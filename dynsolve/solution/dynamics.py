@@ -243,12 +243,12 @@ class Dynamics(Struct, frozen=True, dict=True):
         >>> [definition.name.name for definition in short.definitions]
         ['h']
         """
-        from dynsolve.explain.abbreviations import Abbreviate, is_long
+        from dynsolve.explain.abbreviations import Abbreviate
 
         asked = Abbreviate(abbreviate)
         if not self.robot.has_dynamics or asked is Abbreviate.NEVER:
             return None
-        if asked is Abbreviate.ALWAYS or is_long(self.forms):
+        if asked is Abbreviate.ALWAYS or self.forms.are_long:
             return self._abbreviated
         return self._with_symbols_named
 

@@ -65,7 +65,7 @@ def in_summary(robot: Robot, steps: Sequence[Step], asked: Sequence[str], is_sho
 
 
 def stands_twice(robot: Robot, steps: Iterable[Step]) -> bool:
-    """Whether a model in no other letters than its own is short enough to be written in the summary again."""
+    """Whether a model of more coordinates is short enough to be written in the summary again."""
     of_model = in_model(robot)
     nodes = walk(*(node for step in steps if step.id in of_model for node in step.result))
     return next(islice(nodes, MOST_TWICE, None), None) is None

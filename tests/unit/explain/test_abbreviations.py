@@ -10,7 +10,7 @@ from hypothesis import given, settings
 
 import dynsolve
 from dynsolve.errors import ProblemError, VerificationError
-from dynsolve.explain.abbreviations import Abbreviated, abbreviate, is_long
+from dynsolve.explain.abbreviations import Abbreviated, abbreviate
 from dynsolve.notation.build import cost
 from dynsolve.notation.tree import (
     Negative,
@@ -125,7 +125,7 @@ def longest_chain(names: Abbreviated) -> int:
 @pytest.mark.slow
 def test_a_long_model_becomes_short() -> None:
     for problem in LONG:
-        assert is_long(solved(problem).forms)
+        assert solved(problem).forms.are_long
     names = short("puma560")
     matrices = [entry for matrix in (names.D, names.g) for row in matrix.rows for entry in row]
     meanings = [definition.meaning for definition in names.definitions]
@@ -138,7 +138,7 @@ def test_a_long_model_becomes_short() -> None:
 
 @pytest.mark.parametrize("problem", SHORT)
 def test_a_short_model_needs_no_constants(problem: str) -> None:
-    assert not is_long(solved(problem).forms)
+    assert not solved(problem).forms.are_long
     assert not abbreviate(solved(problem).forms).constants
 
 

@@ -285,6 +285,8 @@ def test_longer_arms_stay_as_short_as_they_are() -> None:
     of_each = re.compile(r"(H|J|v|Kv|K|dLdqd|ddt|dLdq|tau)\d")
     steps = [each for each in solved("stanford-6").steps if of_each.fullmatch(each.id)]
     assert steps and not any(each.lines for each in steps)
+    squares = "Multiplied out, with s₁² + c₁² = 1 and s₂² + c₂² = 1, and collected:"
+    assert lines("stanford-6", "Kv3") == [squares]
     turning = [each for each in solved("stanford-6").steps if re.fullmatch(r"Kw\d", each.id)]
     assert all(len(each.lines) <= 2 for each in turning), "the angular velocity along the body's own axes"
 
@@ -295,6 +297,27 @@ def test_an_arm_of_four_joints_with_parallel_axes_is_worked_out() -> None:
         "With the cosine of a sum, c₁ c₂ - s₁ s₂ = c₁₂ and the sine of a sum, s₁ c₂ + c₁ s₂ = s₁₂:"
     ]
     assert lines("scara-rrpr", "Kv2")[-1] == "The sums of rates multiplied out, and collected:"
+
+
+WRIST = """
+gravity: [0, 0, -g]
+dh:
+  - {theta: q1*, d: h, alpha: 90deg}
+  - {theta: q2*, a: l2}
+  - {theta: q3*, alpha: 90deg}
+  - {theta: q4*, d: l4}
+masses:
+  - {mass: m2, link: 2, center: tip}
+  - {mass: m4, link: 4, center: tip, inertia: {xx: A, yy: A, zz: G}}
+"""
+
+
+def test_a_spatial_arm_of_four_joints_is_worked_out_where_its_D_C_and_g_are_not_long() -> None:
+    """Its last frame is long, and tells nothing of its dynamics."""
+    for name in ("Kv2", "ddt1", "C"):
+        assert lines(WRIST, name), name
+    assert lines(WRIST, "ddt1")[0] == "Term by term:"
+    assert lines(WRIST, "C")[1] == "C₁₁ = c₂₁₁ q̇₂ + c₃₁₁ q̇₃"
 
 
 def test_a_derivative_term_by_term_where_several_factors_move() -> None:
