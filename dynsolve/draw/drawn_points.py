@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import accumulate, pairwise, permutations
+from itertools import accumulate, permutations
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.ring import Expr
@@ -106,7 +106,7 @@ def off_links(point: Vector, pose: Pose) -> float:
         part = dot(subtract(point, a), way) / max(dot(way, way), NEAR)
         return distance(point, between(a, b, min(1.0, max(0.0, part))))
 
-    return min((off(a, b) for a, b in pairwise(pose.skeleton.path)), default=0.0)
+    return min((off(a, b) for a, b in pose.skeleton.links), default=0.0)
 
 
 def _ways(normals: Normals) -> Iterator[Place]:

@@ -150,7 +150,7 @@ def _unseen(leg: Leg, center: Vector, pose: Pose) -> Iterator[Vector]:
     """The directions of an angle that nothing else shows at its middle: no axis of a frame, and no link."""
     frames = [frame for frame in pose.skeleton.frames if distance(frame.origin, center) < NEAR]
     seen = [axis for frame in frames for axis in (frame.x, frame.z)]
-    ways = [*pairwise(pose.skeleton.path), *((b, a) for a, b in pairwise(pose.skeleton.path))]
+    ways = [*pose.skeleton.links, *((b, a) for a, b in pose.skeleton.links)]
     seen += [unit(subtract(b, a)) for a, b in ways if distance(a, center) < NEAR < distance(a, b)]
     directions = [leg.before, leg.turned, *([leg.after] if leg.offset else [])]
     return (direction for direction in directions if all(dot(direction, way) < _ALIKE for way in seen))

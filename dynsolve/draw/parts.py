@@ -121,16 +121,14 @@ def _places(pose: Skeleton, row: int, leg: Leg, view: View, up: Vector, first: b
 
 def _neighbour(pose: Skeleton, row: int, leg: Leg, view: View, step: int) -> list[Vector]:
     """A place on the link that comes before or after, where that lies along the joint's axis."""
-    path = pose.path
-    at = [k for k, point in enumerate(path) if distance(point, leg.foot if step < 0 else leg.head) < NEAR]
-    if not at or not 0 <= at[0] + step < len(path):
-        return []
-    here = path[at[0]]
-    way = subtract(path[at[0] + step], here)
+    here = leg.foot if step < 0 else leg.head
+    ways = pose.links if step > 0 else [(b, a) for a, b in pose.links]
+    there = next((b for a, b in ways if distance(a, here) < NEAR), here)
     gap = view.space(_CLEAR)
-    if abs(dot(unit(way), leg.axis)) < _PARALLEL or distance(here, path[at[0] + step]) < 1.6 * gap:
+    if distance(here, there) < 1.6 * gap:
         return []
-    return [along(here, unit(way), gap)]
+    way = unit(subtract(there, here))
+    return [] if abs(dot(way, leg.axis)) < _PARALLEL else [along(here, way, gap)]
 
 
 def _ground(pose: Skeleton, joints: Sequence[JointBody], view: View, up: Vector) -> tuple[Vector, Vector]:

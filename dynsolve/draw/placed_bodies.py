@@ -24,7 +24,7 @@ from dynsolve.draw.labels import Box, Label, Taken, place, written
 from dynsolve.draw.lengths import tilt
 from dynsolve.draw.paths import Path, typeset
 from dynsolve.draw.placed_pose import Kind, Piece, Place, PlacedPose, Turning, placed_pose
-from dynsolve.draw.poses import Notes, draw_spring, spiral, world_axes, zigzag
+from dynsolve.draw.poses import DAMPERS, Notes, draw_damper, draw_spring, spiral, world_axes, zigzag
 from dynsolve.draw.scene import PLAIN, Scene, framed, gravity_arrow, leads
 from dynsolve.draw.skeleton import finite
 from dynsolve.draw.solids import BODY, block, half_axes
@@ -380,15 +380,12 @@ def _angle(turned: Turning, pose: PlacedPose, notes: Notes) -> None:
 # -- springs and dampers -----------------------------------------------------------------------------
 
 SPRINGS = "A zigzag or a spiral is a spring."
-DAMPERS = "A cup with a piston is a damper."
 OTHER_SPRINGS = (
     "Springs on other than an angle or the distance of two points, or given by their energy, are not drawn."
 )
 OTHER_DAMPERS = "Dampers on other than the distance of two points are not drawn."
 
 _BESIDE = (0.0, 20.0, -20.0, 40.0, -40.0)
-_CUP, _CUP_HALF = 16.0, 6.0
-"""Of a damper: the length of its cup, and half its width."""
 
 
 def _springs(pose: PlacedPose, turning: Sequence[Turning], notes: Notes) -> list[str]:
@@ -402,7 +399,7 @@ def _springs(pose: PlacedPose, turning: Sequence[Turning], notes: Notes) -> list
     for of, damping in (act.along for act in actions.resisting if act.along):
         ends = _ends(of, pose)
         if ends is not None:
-            _dashpot(*_apart(*ends, pose, notes), form(damping), notes)
+            draw_damper(*_apart(*ends, pose, notes), form(damping), notes)
         said.append(DAMPERS if ends else OTHER_DAMPERS)
     return list(dict.fromkeys(said))
 
@@ -451,23 +448,3 @@ def _apart(first: Place, second: Place, pose: PlacedPose, notes: Notes) -> tuple
     beside = min(_BESIDE, key=crowded)
     notes.solid.add([Path(paths.line(*zigzag(a, b, beside)))])
     return (*ends, beside) if beside else (a, b, beside)
-
-
-def _dashpot(a: Point, b: Point, beside: float, name: Node, notes: Notes) -> None:
-    """A cup that opens to the second end, and the piston in it."""
-    reach, way = math.dist(a, b) or 1.0, toward(a, b)
-    across = -way[1], way[0]
-
-    def at(along: float, aside: float) -> Point:
-        return moved(moved(a, way, along), across, beside + aside)
-
-    middle = reach / 2
-    back, front = middle - _CUP / 2, middle + _CUP / 2
-    lines = (
-        paths.line(a, at(0.0, 0.0), at(back, 0.0)),
-        paths.line(at(front, _CUP_HALF), at(back, _CUP_HALF), at(back, -_CUP_HALF), at(front, -_CUP_HALF)),
-        paths.line(at(middle, _CUP_HALF - 2), at(middle, 2 - _CUP_HALF)),
-        paths.line(at(middle, 0.0), at(reach, 0.0), b),
-    )
-    notes.draw(*(Path(line, paths.BLACK, 1.4) for line in lines), behind=True)
-    notes.label(name, [at(middle, _CUP_HALF), at(middle, -_CUP_HALF)], (0.0, 0.0), paths.BLACK, "damper")

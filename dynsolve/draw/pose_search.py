@@ -132,7 +132,7 @@ def _is_beside(mass: MassCenter, origin: Vector, pose: Skeleton) -> bool:
     if distance(mass.center, origin) < NEAR:
         return False
     way = unit(subtract(mass.center, origin))
-    ways = [*pairwise(pose.path), *((b, a) for a, b in pairwise(pose.path))]
+    ways = [*pose.links, *((b, a) for a, b in pose.links)]
     links = [unit(subtract(b, origin)) for a, b in ways if distance(a, origin) < NEAR]
     is_on_axis = any(abs(dot(way, axis)) > _ALIKE for axis in pose.frames[mass.link].axes)
     return is_on_axis and all(dot(way, link) < _ALIKE for link in links)

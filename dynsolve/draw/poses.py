@@ -13,7 +13,8 @@ Springs at joints: a spiral about the axis of one that turns, a zigzag beside on
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from fractions import Fraction
 from itertools import combinations, compress, pairwise
 
 from msgspec import Struct, field
@@ -48,7 +49,7 @@ from dynsolve.draw.vectors import (
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Negative, Node, Number, Row, Symbol, Words
 from dynsolve.quantities import letters
-from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.model import Act, JointType, Robot
 
 AXIS = 44.0
 """How long the axes of frames are drawn."""
@@ -79,8 +80,10 @@ Choice = tuple[float, ...]
 def cost_of(pose: Pose, orientation: Orientation) -> float:
     """How far a pose is from good, 0 at best."""
     view, size = pose.view, pose.view.space(AXIS)
-    path = [view.point(point) for point in _with_hand(pose)]
-    links = list(pairwise(path))
+    hand = _hand(pose)
+    path = [view.point(point) for point in (*pose.skeleton.path, *hand)]
+    ways = [*pose.skeleton.links, *((pose.skeleton.path[-1], point) for point in hand)]
+    links = [_on_paper(way, view) for way in ways]
     centers = [view.point(part.center) for part in pose.parts.joints]
     tips = [view.point(along(origin, axis, size)) for origin, axis in _axes_to_see(pose)]
     on_links = sum(_shortfall(point_to_segment(tip, *link), 13.0) for tip in tips for link in links)
@@ -89,22 +92,21 @@ def cost_of(pose: Pose, orientation: Orientation) -> float:
         + 40.0 * _crowding(path, 60.0)
         + 25.0 * _crowding(centers, 48.0)
         + 14.0 * _crowding(tips, 30.0)
-        + 30.0 * _crossings(links)
+        + 30.0 * _crossings(ways, view)
         + 10.0 * on_links
         + _foreshortening(pose)
         + _lowness(pose.skeleton, orientation)
     )
 
 
-def _with_hand(pose: Pose) -> tuple[Vector, ...]:
-    """The points of the chain, with the last joint where that stands beyond all of them."""
-    path, joints = pose.skeleton.path, pose.parts.joints
-    if not joints or len(path) < 2:
-        return path
+def _hand(pose: Pose) -> tuple[Vector, ...]:
+    """The last joint, where that stands beyond all points of the chain."""
+    links, joints = pose.skeleton.links, pose.parts.joints
+    if not (links and joints):
+        return ()
     last = joints[-1].center
-    ways = pairwise(path)
-    on_path = any(distance(a, last) + distance(last, b) < distance(a, b) + NEAR for a, b in ways)
-    return path if on_path else (*path, last)
+    is_on_link = any(distance(a, last) + distance(last, b) < distance(a, b) + NEAR for a, b in links)
+    return () if is_on_link else (last,)
 
 
 def _shortfall(value: float, wanted: float) -> float:
@@ -124,20 +126,29 @@ def _axes_to_see(pose: Pose) -> Iterator[tuple[Vector, Vector]]:
                 yield frame.origin, axis
 
 
-def _crossings(links: Sequence[tuple[Point, Point]]) -> float:
-    """How near links come to each other that do not meet."""
+def _crossings(links: Sequence[tuple[Vector, Vector]], view: View) -> float:
+    """How near links come to each other that do not meet, and how small the angles are of those that do."""
     total = 0.0
-    for (i, first), (j, second) in combinations(enumerate(links), 2):
-        if j == i + 1:
-            total += 0.6 * _fold(first, second)
+    for first, second in combinations(links, 2):
+        corners = [
+            (view.point(a), view.point(b), view.point(c))
+            for a, b in (first, first[::-1])
+            for d, c in (second, second[::-1])
+            if distance(b, d) < NEAR
+        ]
+        if corners:
+            total += 0.6 * max(_fold(*corner) for corner in corners)
         else:
-            total += _shortfall(segment_distance(first, second), 36.0)
+            total += _shortfall(segment_distance(_on_paper(first, view), _on_paper(second, view)), 36.0)
     return total
 
 
-def _fold(first: tuple[Point, Point], second: tuple[Point, Point]) -> float:
-    """1 where a link lies straight back on the one before it, 0 where it is far from that."""
-    (a, b), (_, c) = first, second
+def _on_paper(link: tuple[Vector, Vector], view: View) -> tuple[Point, Point]:
+    return view.point(link[0]), view.point(link[1])
+
+
+def _fold(a: Point, b: Point, c: Point) -> float:
+    """1 where a link from b lies straight on another one, 0 where it is far from that."""
     u, v = from_to(b, a), from_to(b, c)
     sizes = math.hypot(*u) * math.hypot(*v)
     if sizes < NEAR:
@@ -150,7 +161,7 @@ def _foreshortening(pose: Pose) -> float:
     total = 0.0
     for _, axis in _axes_to_see(pose):
         total += 6.0 * _shortfall(math.hypot(*view.direction(axis)), 0.6)
-    for a, b in pairwise(pose.skeleton.path):
+    for a, b in pose.skeleton.links:
         seen = math.dist(view.point(a), view.point(b)) / (distance(a, b) * view.size)
         total += 8.0 * _shortfall(seen, 0.7)
     return total
@@ -168,14 +179,14 @@ def taste(robot: Robot, pose: Pose, choice: Choice) -> float:
     total = 0.0
     for q, value in zip(robot.coordinates, choice, strict=False):
         if q.type is JointType.PRISMATIC:
-            total += 1.5 * abs(value - 0.9)
+            total += 1.5 * abs(value - 0.9) + 20.0 * max(0.0, 0.4 - value)  # a length is seen positive
         else:
             total += 0.3 * abs(value) + 1.5 * max(0.0, 0.3 - value)  # 90° more than 30° is seen to be obtuse
     if pose.view.flat:
         for leg in pose.skeleton.legs:
             if leg.type is JointType.REVOLUTE:
                 total += 12.0 * _shortfall(leg.turn, 0.7) + 1.2 * abs(leg.turn - 0.8)
-        total += sum(_SQUARE_TO_PAPER for link in pairwise(pose.skeleton.path) if _is_square(pose, *link))
+        total += sum(_SQUARE_TO_PAPER for link in pose.skeleton.links if _is_square(pose, *link))
     else:
         total += 0.5 * abs(choice[-2] - math.radians(35))
         if len(pose.skeleton.legs) <= MANY:
@@ -467,7 +478,8 @@ def gravity(robot: Robot, place: Point, pull: Vector, view: View, notes: Notes) 
 
 SPRINGS = "A spiral or a zigzag at a joint is a spring."
 OTHER_SPRINGS = "Springs on other than one joint, or given by their energy, are not drawn."
-NO_DAMPERS = "Dampers are not drawn."
+DAMPERS = "A cup with a piston is a damper."
+OTHER_DAMPERS = "Dampers on other than one joint that slides are not drawn."
 MOTORS = "A box beside a joint is a motor with a coordinate of its own."
 OTHER_MOTORS = "Motors without a coordinate of their own are not drawn."
 
@@ -480,39 +492,68 @@ _BESIDE, _HALF, _ENDS, _TOOTH, _LONGEST = 22.0, 6.0, 10.0, 6.0, 96.0
 """Of a zigzag: how far beside its joint it runs, half its width, its ends, half its period, all its teeth."""
 
 
+_CUP, _CUP_HALF = 16.0, 6.0
+"""Of a damper: the length of its cup, and half its width."""
+
+
 def joint_springs(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, Expr]]:
-    """The joints on whose coordinate alone a spring acts along, with its stiffness."""
-    found = []
-    for of, stiffness in (act.along for act in robot.actions.stored if act.along):
-        rows = _rows(robot, _stretched(robot, of, numbers))
-        found += [(part, stiffness) for part in pose.parts.joints if rows == [part.row]]
+    """The joints along whose variable alone a spring acts, with its stiffness."""
+    return _at_joints(robot.actions.stored, robot, numbers, pose)
+
+
+def slide_dampers(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, Expr]]:
+    """The joints that slide along whose variable alone a damper acts, with its damping."""
+    found = _at_joints(robot.actions.resisting, robot, numbers, pose)
+    return [(part, damping) for part, damping in found if part.type is JointType.PRISMATIC]
+
+
+def _at_joints(
+    acts: Sequence[Act], robot: Robot, numbers: RobotNumbers, pose: Pose
+) -> list[tuple[JointBody, Expr]]:
+    found, moving = [], {k for joint in robot.joints for k, _ in joint.rates}
+    for of, size in (act.along for act in acts if act.along):
+        rates = {k: rate for k, rate in _rates(robot, of, numbers).items() if k in moving}
+        rows = [joint.index for joint in robot.joints if _is_along(dict(joint.rates), rates)]
+        found += [(part, size) for part in pose.parts.joints if [part.row] == rows]
     return found
 
 
-def _stretched(robot: Robot, of: Expr, numbers: RobotNumbers) -> set[int]:
-    """The coordinates, from 0, on which the form depends that a spring is given by."""
-    return {k for k, q in enumerate(robot.coordinates) if _rate(of, q.name, numbers) > NEAR}
+def _is_along(joint: Mapping[int, Fraction], rates: Mapping[int, float]) -> bool:
+    """Whether a form grows with the coordinates, from 0, as the variable of a joint does."""
+    ratios = {k: rates[k] / float(rate) for k, rate in joint.items() if k in rates}
+    if joint.keys() != rates.keys():
+        return False
+    return max(ratios.values()) - min(ratios.values()) < NEAR
 
 
-def _rows(robot: Robot, coordinates: set[int]) -> list[int]:
+def _rates(robot: Robot, of: Expr, numbers: RobotNumbers) -> dict[int, float]:
+    """How much the form that a spring is given by grows with each coordinate on which it depends."""
+    values = numbers.values
+    start = finite(of, values)
+    rates = {k: finite(of, {**values, q.name: 1.0}) - start for k, q in enumerate(robot.coordinates)}
+    return {k: rate for k, rate in rates.items() if abs(rate) > NEAR}
+
+
+def _rows(robot: Robot, coordinates: Collection[int]) -> list[int]:
     """The rows of the table that coordinates move."""
-    return [joint.index for joint in robot.joints if {k for k, _ in joint.rates} & coordinates]
-
-
-def _rate(of: Expr, coordinate: str, numbers: RobotNumbers) -> float:
-    """How much the form that a spring is given by grows with a coordinate, without its sign."""
-    return abs(finite(of, {**numbers.values, coordinate: 1.0}) - finite(of, numbers.values))
+    return [joint.index for joint in robot.joints if any(k in coordinates for k, _ in joint.rates)]
 
 
 def springs(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None:
-    """Every such spring with its stiffness."""
+    """Every such spring with its stiffness, and every such damper with its damping."""
     for part, stiffness in joint_springs(robot, numbers, pose):
         name = written(robot)(stiffness)
         if part.type is JointType.REVOLUTE:
             draw_spring(spiral(part.center, part.axis, pose.view), name, notes)
         else:
-            leg = pose.skeleton.legs[part.row - 1]
-            draw_spring(zigzag(pose.view.point(leg.foot), pose.view.point(leg.head), _BESIDE), name, notes)
+            draw_spring(zigzag(*_ends(pose, part), _BESIDE), name, notes)
+    for part, damping in slide_dampers(robot, numbers, pose):
+        draw_damper(*_ends(pose, part), -_BESIDE, written(robot)(damping), notes)
+
+
+def _ends(pose: Pose, part: JointBody) -> tuple[Point, Point]:
+    leg = pose.skeleton.legs[part.row - 1]
+    return pose.view.point(leg.foot), pose.view.point(leg.head)
 
 
 def own_motors(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, int]]:
@@ -524,8 +565,8 @@ def own_motors(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[Jo
     for rotor in robot.actions.rotors:
         if _rows(robot, {rotor.turns}):
             continue
-        forms = (_stretched(robot, act.along[0], numbers) for act in robot.actions.stored if act.along)
-        rows = [row for form in forms if rotor.turns in form for row in _rows(robot, form)]
+        forms = (_rates(robot, act.along[0], numbers) for act in robot.actions.stored if act.along)
+        rows = [row for rates in forms if rotor.turns in rates for row in _rows(robot, [*rates])]
         at = (rows or [rotor.carrier + 1])[0]
         found += [(part, rotor.turns) for part in pose.parts.joints if part.row == at]
     return found
@@ -582,3 +623,23 @@ def zigzag(a: Point, b: Point, beside: float) -> Iterator[Point]:
         corner = moved(start, way, ends + (reach - 2 * ends) * (k + 0.5) / teeth)
         yield moved(corner, across, _HALF if k % 2 else -_HALF)
     yield from (moved(start, way, reach - ends), moved(start, way, reach), b)
+
+
+def draw_damper(a: Point, b: Point, beside: float, name: Node, notes: Notes) -> None:
+    """A cup that opens to the second end, the piston in it, and the damping."""
+    reach, way = math.dist(a, b) or 1.0, toward(a, b)
+    across = -way[1], way[0]
+
+    def at(along: float, aside: float) -> Point:
+        return moved(moved(a, way, along), across, beside + aside)
+
+    middle = reach / 2
+    back, front = middle - _CUP / 2, middle + _CUP / 2
+    lines = (
+        paths.line(a, at(0.0, 0.0), at(back, 0.0)),
+        paths.line(at(front, _CUP_HALF), at(back, _CUP_HALF), at(back, -_CUP_HALF), at(front, -_CUP_HALF)),
+        paths.line(at(middle, _CUP_HALF - 2), at(middle, 2 - _CUP_HALF)),
+        paths.line(at(middle, 0.0), at(reach, 0.0), b),
+    )
+    notes.draw(*(Path(line, paths.BLACK, 1.4) for line in lines), behind=True)
+    notes.label(name, [at(middle, _CUP_HALF), at(middle, -_CUP_HALF)], (0.0, 0.0), paths.BLACK, "damper")

@@ -41,7 +41,17 @@ from dynsolve.draw.lengths import (
 from dynsolve.draw.mass_centers import DrawnBody, Form
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose_search import best_pose, dressed, held_pose
-from dynsolve.draw.poses import NO_DAMPERS, OTHER_SPRINGS, SPRINGS, Notes, Pose, joint_springs, springs
+from dynsolve.draw.poses import (
+    DAMPERS,
+    OTHER_DAMPERS,
+    OTHER_SPRINGS,
+    SPRINGS,
+    Notes,
+    Pose,
+    joint_springs,
+    slide_dampers,
+    springs,
+)
 from dynsolve.draw.skeleton import Orientation, RobotNumbers, numbers, orientation
 from dynsolve.draw.solids import BODY, ground, solids
 from dynsolve.draw.vectors import (
@@ -264,7 +274,7 @@ def _caption(
     robot, is_drawn = problem.robot, problem.normals is not None
     aside = is_aside(robot, values, is_drawn)
     dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
-    motors = poses.own_motors(robot, values, pose)
+    dampers, motors = slide_dampers(robot, values, pose), poses.own_motors(robot, values, pose)
     turned_about = _BOLD[robot.base_turns[0][0]] if robot.base_turns else ""
     same_axis = f"{turned_about}₀, about which the base is turned, is that of the world, too."
     said = (
@@ -284,7 +294,8 @@ def _caption(
         (OTHER_SPRINGS, len(at_joints) < len(robot.actions.stored)),
         (poses.MOTORS, bool(motors)),
         (poses.OTHER_MOTORS, len(motors) < len(robot.actions.rotors)),
-        (NO_DAMPERS, any(act.along for act in robot.actions.resisting)),
+        (DAMPERS, bool(dampers)),
+        (OTHER_DAMPERS, len(dampers) < sum(act.along is not None for act in robot.actions.resisting)),
         (FORCES, any(drawn_forces(robot, values, pose))),
         (MOMENTS, any(not load.moment.is_zero for load in robot.questions.loads)),
         (TURNING, any(map(is_turning, robot.questions.loads))),

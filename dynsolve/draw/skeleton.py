@@ -18,7 +18,8 @@ How a robot stands in the world: which way is up, and whether it moves in a plan
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -320,12 +321,13 @@ class MassCenter(Struct, frozen=True):
 class Skeleton(Struct, frozen=True):
     """A robot at a pose: frames 0..m, legs 1..m, and the mass centres.
 
-    `path` are the points of the chain from frame 0 to the last, each once.
+    `path` are the points of the chains from frame 0 on, each once, and `links` the straight ways to them.
     """
 
     frames: tuple[DrawnFrame, ...]
     legs: tuple[Leg, ...]
     path: tuple[Vector, ...]
+    links: tuple[tuple[Vector, Vector], ...]
     masses: tuple[MassCenter, ...] = ()
 
 
@@ -336,16 +338,14 @@ def skeleton(robot: Robot, numbers: RobotNumbers, q: Sequence[float]) -> Skeleto
         leg, frame = _leg(robot, numbers, joint, q, frames[joint.parent])
         legs.append(leg)
         frames.append(frame)
-    return Skeleton(tuple(frames), tuple(legs), _path(legs))
+    links = tuple(_links(legs))
+    return Skeleton(tuple(frames), tuple(legs), (ORIGIN, *(end for _, end in links)), links)
 
 
-def _path(legs: Sequence[Leg]) -> tuple[Vector, ...]:
-    points = [ORIGIN]
+def _links(legs: Sequence[Leg]) -> Iterator[tuple[Vector, Vector]]:
     for leg in legs:
-        for point in (leg.foot, leg.head, leg.end):
-            if distance(points[-1], point) > NEAR:
-                points.append(point)
-    return tuple(points)
+        ways = pairwise((leg.start, leg.foot, leg.head, leg.end))
+        yield from ((a, b) for a, b in ways if distance(a, b) > NEAR)
 
 
 def _leg(

@@ -13,7 +13,6 @@ from dynsolve.draw import draw, is_drawn, placed_bodies
 from dynsolve.draw.placed_bodies import (
     BALLS,
     BOXES,
-    DAMPERS,
     DISKS,
     RODS,
     ROLLING,
@@ -22,7 +21,15 @@ from dynsolve.draw.placed_bodies import (
 )
 from dynsolve.draw.placed_pose import Kind, Piece, Place, placed_pose, ways
 from dynsolve.draw.pose_search import best_pose
-from dynsolve.draw.poses import MOTORS, NO_DAMPERS, OTHER_MOTORS, OTHER_SPRINGS, joint_springs, own_motors
+from dynsolve.draw.poses import (
+    DAMPERS,
+    MOTORS,
+    OTHER_DAMPERS,
+    OTHER_MOTORS,
+    OTHER_SPRINGS,
+    joint_springs,
+    own_motors,
+)
 from dynsolve.draw.poses import SPRINGS as SPRINGS_AT_JOINTS
 from dynsolve.draw.scene import scene
 from dynsolve.draw.skeleton import finite, numbers, orientation
@@ -333,12 +340,23 @@ def test_without_springs_nothing_is_said_of_them() -> None:
         ("springs: [{stiffness: k, of: q2}]", [SPRINGS_AT_JOINTS]),
         ("springs: [{stiffness: k, of: q1 - q2}]", [OTHER_SPRINGS]),
         ("springs: [{energy: k*sin(q1)^2}]", [OTHER_SPRINGS]),
-        ("dampers: [{damping: b, of: q1 - q2}]", [NO_DAMPERS]),
+        ("dampers: [{damping: b, of: q1 - q2}]", [OTHER_DAMPERS]),
+        ("dampers: [{damping: b, of: q2}]", [OTHER_DAMPERS]),
+        ("dampers: [{damping: b, of: q3}]", [DAMPERS]),
     ],
 )
 def test_what_is_not_drawn_is_said(acts: str, said: list[str]) -> None:
     caption = drawn_text(f"{ROWS}{acts}").caption
-    assert [each for each in (SPRINGS_AT_JOINTS, OTHER_SPRINGS, NO_DAMPERS) if each in caption] == said
+    assert [
+        each for each in (SPRINGS_AT_JOINTS, OTHER_SPRINGS, DAMPERS, OTHER_DAMPERS) if each in caption
+    ] == said
+
+
+def test_a_spring_along_the_variable_of_a_joint_is_drawn_there() -> None:
+    rows = "dh: [{theta: p1*, a: l1}, {theta: p2* - p1*, a: l2}]\nmasses: [{mass: m, link: 2, center: tip}]\n"
+    picture = drawn_text(f"{rows}springs: [{{stiffness: k, of: p2 - p1}}, {{stiffness: c, of: p2}}]")
+    assert names(picture, "spring") == ["k"]
+    assert OTHER_SPRINGS in picture.caption
 
 
 def test_branches_share_the_length_that_they_begin_with() -> None:

@@ -199,6 +199,26 @@ def test_constraints_hold_in_the_picture(apart: str, gap: float) -> None:
     assert scene(problem).paths
 
 
+SLIDER_CRANK = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: r}, {theta: q2*, a: l}, {from: 0, theta: 90deg, alpha: 90deg}, {d: x*}]
+points: {P: {link: 2, at: tip}, S: {link: 4, at: tip}}
+masses: [{mass: m, link: 1, center: tip}]
+constraints: [P.x - S.x, P.y - S.y]
+"""
+
+
+def test_a_closed_chain_is_drawn_open_though_its_lengths_allow_a_folded_pose() -> None:
+    problem = read_problem(SLIDER_CRANK.encode(), "slider-crank.yaml")
+    values = numbers(problem)
+    pose = allowed_pose(problem.robot, values, orientation(problem.robot, values))
+    assert pose is not None
+    base, pin, slider = (pose.skeleton.frames[k].origin for k in (0, 1, 4))
+    assert slider[0] > 0.4
+    assert abs(pin[1]) > 0.4
+    assert distance(base, slider) > 0.4
+
+
 def test_without_constraints_every_pose_is_allowed() -> None:
     problem = read_problem(f"{ARMS}\n".encode(), "tree.yaml")
     values = numbers(problem)

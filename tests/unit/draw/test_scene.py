@@ -424,7 +424,7 @@ def test_lengths_are_straight_beside_what_they_measure(name: str) -> None:
 def test_what_is_slid_back_is_measured_as_minus_its_coordinate() -> None:
     arm = "gravity: [0, -g, 0]\ndh: [{alpha: 90deg}, {d: p*, alpha: -90deg}, {theta: q*, a: l}]\n"
     held = (
-        "masses: [{mass: M, link: 2, center: origin}, {mass: m, link: 3}]\nconstraints: [tip.x + tip.y - h]\n"
+        "masses: [{mass: M, link: 2, center: origin}, {mass: m, link: 3}]\nconstraints: [tip.y - 2*l - h]\n"
     )
     assert "-p⋆" in names(drawn_text(f"{arm}{held}find: [reduced]"))
     assert "p⋆" in names(drawn_text(f"{arm}find: [J]"))
