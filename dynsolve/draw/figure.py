@@ -19,6 +19,8 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Literal
 
+from msgspec.structs import replace
+
 from dynsolve.document import Picture
 from dynsolve.document.figures import ArmArrow, ArmFigure, Figure, FigureAngle, FigureLine, LineKind, Place
 from dynsolve.draw import paths, poses
@@ -63,9 +65,11 @@ FACES = (
 def to_svg(scene: Scene) -> str:
     """The picture as a document of SVG 1.1."""
     box = scene.frame
-    width, height = number(box.right - box.left), number(box.bottom - box.top)
+    wide, high = box.right - box.left, box.bottom - box.top
+    width, height = number(wide), number(high)
     lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}"'
+        '<svg xmlns="http://www.w3.org/2000/svg"'
+        f' width="{number(wide * scene.scale)}" height="{number(high * scene.scale)}"'
         f' viewBox="{number(box.left)} {number(box.top)} {width} {height}" role="img"'
         f' font-family="{FACES}" font-size="{number(SIZE)}">',
         f"<title>{text(scene.title)}</title>",
@@ -157,7 +161,7 @@ def to_latex_picture(scene: Scene) -> str:
     """The picture as a group of LaTeX."""
     box = scene.frame
     wide, high = box.right - box.left, box.bottom - box.top
-    unit = min(_UNIT, WIDEST / wide)
+    unit = min(_UNIT * scene.scale, WIDEST / wide)
     lines = [
         rf"{{\fontsize{{{font_size(unit)}}}{{12}}\selectfont",
         _LITERAL,
@@ -342,6 +346,9 @@ TIP_ON = ("The tip lies on the dashed axis.", "The tip lies on the dashed axes."
 _ON_AXIS, _ELSEWHERE = 1e-4, 0.37
 """How near to an axis a point is on it, and the first coordinate of another pose."""
 
+_TALLEST = 230.0
+"""How high the picture of an arm beside a step is at most, in picture units of the usual size."""
+
 _ALONG, _OFF = 0.95, 16.0
 """The cosine from which an arrow lies on the last link, and how far before the tip it ends then."""
 
@@ -363,6 +370,7 @@ def drawn_arm(figure: ArmFigure, problem: Problem, style: Style) -> Picture | No
         _arrow(arrow, at, pose, notes)
     caption = " ".join((figure.caption, *TIP_ON[: len(axes)][-1:]))
     scene = _with_labels(caption, notes, (*lines, *body))
+    scene = replace(scene, scale=min(1.0, _TALLEST / (scene.frame.bottom - scene.frame.top)))
     return Picture(to_svg(scene), caption, to_latex_picture(scene))
 
 

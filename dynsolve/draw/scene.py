@@ -181,7 +181,8 @@ PLAIN = Style(decimal=True)
 class Scene(Struct, frozen=True):
     """Paths from back to front, labels on top of them, and the box that holds everything.
 
-    `caption` stands under it in a report, `description` is for those who cannot see it.
+    `caption` stands under it in a report, `description` is for those who cannot see it; it is shown at
+    `scale` of its usual size.
     """
 
     title: str
@@ -191,6 +192,7 @@ class Scene(Struct, frozen=True):
     labels: tuple[Label, ...]
     frame: Box
     style: Style
+    scale: float = 1.0
 
 
 def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:

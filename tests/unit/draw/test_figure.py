@@ -96,6 +96,16 @@ def test_a_case_has_its_drawing(text: str, count: int) -> None:
 
 
 @pytest.mark.parametrize("text", [ELBOW, SLIDING, PLANAR])
+def test_the_arm_of_a_case_is_small(text: str) -> None:
+    for figure in figures(text):
+        picture = drawn_arm(figure, read_problem(text, "own.yaml"), Style())
+        assert picture is not None
+        height = re.search(r'height="([.0-9]+)" viewBox', picture.svg)
+        assert height is not None
+        assert float(height[1]) <= 230.0
+
+
+@pytest.mark.parametrize("text", [ELBOW, SLIDING, PLANAR])
 def test_the_tip_does_not_move_along_the_arrow(text: str) -> None:
     """Each joint moved a little, in numbers: the motion of the tip is orthogonal to w."""
     problem = read_problem(text, "own.yaml")
