@@ -121,6 +121,8 @@ LINEAR_A = bold("A", Words("lin"))
 LINEAR_B = bold("B", Words("lin"))
 DIVISOR = Letter("Delta")
 """What several entries of a result are divided by."""
+DIVISOR_THERE = Letter("Delta", Words("e"))
+"""The same in the equilibrium."""
 TASK_INERTIA = bold("Lambda")
 NULLSPACE = Row((Letter("N", style="script"), Parenthesized(bold("J", Symbol("r")))))
 RANGESPACE = Row((Letter("R", style="script"), Parenthesized(bold("J", Symbol("r")))))
@@ -326,6 +328,7 @@ OWN: dict[tuple[str, int], tuple[str, ...]] = {
     ("Delta", 0): ("Theta", "Gamma"),
     ("Delta", 1): ("Theta",),
     ("Q", 1): ("Xi",),
+    ("b", 1): ("p", "w"),
     ("n", 2): ("N", "nu"),
     ("rho", 0): ("gamma", "nu"),
     ("psi", 0): ("chi", "omega"),

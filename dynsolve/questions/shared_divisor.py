@@ -29,24 +29,25 @@ MOST_TERMS = 60
 
 
 class SharedDivisor(Struct, frozen=True):
-    """What the letter Δ stands for; whether that is det D."""
+    """What a letter, Δ, stands for; whether that is det D."""
 
     value: Expr
     products: ProductForms
     is_determinant: bool
+    letter: Node = letters.DIVISOR
 
     @property
     def meaning(self) -> Relation:
         """Δ = det D = its tree."""
         of = (letters.DET_D,) * self.is_determinant
-        return equation(letters.DIVISOR, *of, self._tree)
+        return equation(self.letter, *of, self._tree)
 
     @property
     def named(self) -> Relation:
         """det D = its tree =: Δ"""
         if not self.is_determinant:
             return self.meaning
-        return Relation((letters.DET_D, self._tree, letters.DIVISOR), ("=", NAMED))
+        return Relation((letters.DET_D, self._tree, self.letter), ("=", NAMED))
 
     @property
     def _tree(self) -> Node:
@@ -79,7 +80,7 @@ class SharedDivisor(Struct, frozen=True):
         ratio = 1 / rest.number
         above = one.numerator * ratio
         number = 1 if self.products.decimal else content([above]).denominator
-        return self.products.over(above * number, number, (letters.DIVISOR, 1))
+        return self.products.over(above * number, number, (self.letter, 1))
 
     def _with_letter(self, times: Expr, left: Expr, rest: Expr) -> Node:
         """(times Δ + left)/(rest Δ), with the letter above, too, where it stands there."""
@@ -89,7 +90,7 @@ class SharedDivisor(Struct, frozen=True):
         above = put(times) * (letter if shorter else put(self.value)) + put(left)
         forms = ProductForms(Compactor(ring), decimal=self.products.decimal)
         shown = forms.of(RationalExpr(above, put(rest) * letter))
-        return mapped(shown, lambda node: letters.DIVISOR if node == Symbol(_NAME) else node)
+        return mapped(shown, lambda node: self.letter if node == Symbol(_NAME) else node)
 
 
 _NAME = "shared divisor"

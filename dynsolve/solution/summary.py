@@ -5,11 +5,12 @@ Everything in it is the result of a step, taken from there, so that it cannot di
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby, islice
 from types import MappingProxyType
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from dynsolve.document import (
     Block,
@@ -92,7 +93,7 @@ def summary_blocks(
     of_steps, read_off = _parted(robot, (name for name in asked if name not in of_model))
     above = [name for name in of_steps if _is_told_above(by_id.get(name), detail, sections)]
     others = [
-        *_others([name for name in of_steps if name not in above], robot, steps),
+        *_others([name for name in of_steps if name not in above], robot, steps, has_inertia="D" in asked),
         *_read_off(read_off, robot, forms),
         *(_place_of(by_id[name], robot, sections) for name in above),
     ]
@@ -316,11 +317,16 @@ def _read_off(asked: Iterable[Quantity], robot: Robot, forms: Callable[[str], No
         yield Text((*listed(zero), " are 0."))
 
 
-def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
+def _others(
+    asked: Sequence[str], robot: Robot, steps: Sequence[Step], *, has_inertia: bool
+) -> Iterator[Block]:
     """What else is asked for: what holds everywhere, then, said so, what holds at the given state alone.
 
-    Accelerations, which hold with given rates alone, come last.
+    Accelerations, which hold with given rates alone, come last.  Where there is D its entries are not told.
     """
+    if has_inertia:
+        entries = {one for row in letters.entries("d", robot.n) for one in row}
+        steps = [replace(step, defines=_without(step.defines, entries)) for step in steps]
     at_state = [name for name in asked if holds_at_state(robot, name)]
     yield from _with_conditions([name for name in asked if name not in at_state], robot, steps)
     for with_rates in (False, True):
@@ -328,6 +334,10 @@ def _others(asked: Sequence[str], robot: Robot, steps: Sequence[Step]) -> Iterat
         if found := list(_with_conditions(names, robot, steps)):
             yield at_the_state(robot, names)
             yield from found
+
+
+def _without(defined: Iterable[Node], entries: Collection[Node]) -> tuple[Node, ...]:
+    return tuple(one for one in defined if not (isinstance(one, Relation) and one.parts[0] in entries))
 
 
 def _with_conditions(names: Iterable[str], robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
@@ -338,7 +348,8 @@ def _with_conditions(names: Iterable[str], robot: Robot, steps: Sequence[Step]) 
     told = {name: (step.defines, step.holds) for step in steps for name in (step.id, *step.also)}
     for (defined, condition), found in groupby(names, key=lambda name: told.get(name, ((), ()))):
         if defined:
-            yield from (Text(("With the divisor of several entries:",)), Equations(defined))
+            what = "With the divisor of several entries:" if len(defined) == 1 else "With"
+            yield from (Text((what,)), Equations(defined))
         yield from (block for name in found for block in _asked_for(name, robot, steps))
         if condition:
             yield Text(condition)

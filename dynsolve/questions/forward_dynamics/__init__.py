@@ -1,4 +1,4 @@
-"""The accelerations that given forces make."""
+"""The accelerations that given forces make; `named` has them in the entries of D."""
 
 from __future__ import annotations
 

@@ -7,11 +7,9 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.linear_systems import FractionMatrix, adjugate, fraction_of, inverse_times, is_diagonal
 from dynsolve.algebra.lowest_terms import is_decided
 from dynsolve.algebra.matrix import Matrix, determinant
-from dynsolve.algebra.ring_values import build_ring
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.document.books import LYNCH_PARK, mls
@@ -29,6 +27,7 @@ from dynsolve.notation.template import formula
 from dynsolve.notation.tree import Node, Number, Quotient, Symbol, equation, mapped
 from dynsolve.quantities import letters
 from dynsolve.questions.forward_dynamics.derive import TOO_LARGE, acting_names
+from dynsolve.questions.forward_dynamics.named import OfEntries, named
 from dynsolve.questions.independent_rows import where_independent
 
 
@@ -43,7 +42,6 @@ def steps(context: Context) -> Iterator[Step]:
     if context.robot.questions.constraints:
         yield as_far_as_read(_constrained(context, value), value)
         return
-    lines = () if is_too_large(value) else inverse_of_inertia(context)
     step = Step(
         id="qdd_forward",
         title="The accelerations that the forces make",
@@ -55,13 +53,21 @@ def steps(context: Context) -> Iterator[Step]:
         ),
         formula=formula("𝐪̈ = 𝐃⁻¹ {acting}", acting=acting_side(context)),
         source=LYNCH_PARK.section("8.5"),
-        lines=lines,
-        concluding=(f"Multiplied out{'' if is_diagonal(context.values['D']) else and_cancelled(value)}:",)
-        if lines
-        else (),
         detail=Detail.BRIEF,
         **_result(context),
     )
+    if found := named(context):
+        yield replace(
+            step,
+            lines=found.lines,
+            concluding=("Put in:",),
+            result=(equation(letters.QDD, found.shown),),
+            defines=(*found.entries, *found.meanings),
+        )
+        return
+    lines = () if is_too_large(value) else inverse_of_inertia(context)
+    cancelled = "" if is_diagonal(context.values["D"]) else and_cancelled(value)
+    step = replace(step, lines=lines, concluding=(f"Multiplied out{cancelled}:",) if lines else ())
     yield as_far_as_read(step, value)
 
 
@@ -158,23 +164,14 @@ def inverse_of_inertia(context: Context) -> tuple[Line, ...]:
 
 def _in_entries(D: Matrix) -> tuple[Line, ...]:
     """D⁻¹ by the entries of D, where these are too long to be put in."""
-    size = range(len(D.rows))
-    names = {(i, j): f"d{i}_{j}" for i in size for j in size if i <= j and not D[i, j].is_zero}
-    ring = build_ring([], [*map(Symbol, names.values())])
-    of_entries = {(i, j): ring.symbol(name) for (i, j), name in names.items()}
-    whole = Matrix.of(ring, ([of_entries.get((min(i, j), max(i, j)), ring.zero) for j in size] for i in size))
-    entries = {name: letters.entry("d", i + 1, j + 1) for (i, j), name in names.items()}
-    compactor = Compactor(ring)
-
-    def with_letters(part: Node) -> Node:
-        return entries.get(part.name, part) if isinstance(part, Symbol) else part
-
-    adjoint = mapped(compactor.matrix(adjugate(whole)), with_letters)
-    value = mapped(compactor.form(determinant(whole)), with_letters)
+    of = OfEntries(D, range(len(D.rows)))
     over = Quotient(Number(1), letters.DET_D)
-    parts = (formula("𝐃⁻¹ = {over} {adjoint}", over=over, adjoint=adjoint), equation(letters.DET_D, value))
+    parts = (
+        formula("𝐃⁻¹ = {over} {adjoint}", over=over, adjoint=of.adjugate),
+        equation(letters.DET_D, of.determinant),
+    )
     told = "The inverse of $𝐃$, its adjugate over its determinant, in the entries of $𝐃$:"
-    return (Line(say(told), parts, is_kept=True),) if is_small(adjoint, value) else ()
+    return (Line(say(told), parts, is_kept=True),) if is_small(of.adjugate, of.determinant) else ()
 
 
 # -- hints -----------------------------------------------------------------------------------------

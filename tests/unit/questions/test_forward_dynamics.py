@@ -4,16 +4,23 @@ from __future__ import annotations
 
 import json
 import random
+from itertools import islice
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import dynsolve
 from dynsolve.algebra.compact.proof import plain_form
+from dynsolve.derivation.arm_values import states_with
 from dynsolve.derivation.graph import Skipped, known
 from dynsolve.errors import VerificationError
+from dynsolve.explain.step import Detail
+from dynsolve.explain.terms import with_force_letters
 from dynsolve.notation.python import to_python
-from dynsolve.notation.tree import Matrix, Negative, walk
+from dynsolve.notation.tree import Matrix, Negative, Symbol, mapped, walk
+from dynsolve.notation.tree_values import compile_trees
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities import letters
 from dynsolve.questions.constraints.check import verify_constraints
 from dynsolve.questions.forward_dynamics.check import COMPARED, verify_forward
@@ -81,6 +88,49 @@ def test_a_wrong_result_is_found(text: str) -> None:
     wrong = Matrix((shown.rows[0], tuple(map(Negative, shown.rows[1]))))
     with pytest.raises(VerificationError):
         verify_forward(solution.robot, {**right, "qdd_forward": wrong})
+
+
+ARM = """
+gravity: [0, 0, -g]
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+masses: [{mass: m2, link: 2}, {mass: m3, link: 3}]
+find: [qdd_forward]
+"""
+PLANE = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}, {theta: q2*, a: l}, {theta: q3*, a: l}]
+masses: [{mass: m, link: 1}, {mass: m, link: 2}, {mass: m, link: 3}]
+passive: [q3]
+find: [qdd_forward]
+"""
+
+
+@pytest.mark.parametrize("text", [ELBOW, ARM, PLANE])
+def test_coupled_accelerations_in_entries_of_the_inertia_matrix_are_those_multiplied_out(text: str) -> None:
+    solution = dynsolve.solve(text)
+    (step,) = (step for step in solution.steps if step.id == "qdd_forward")
+    assert "Δ = " in report(solution, Format.TEXT).decode()
+    (result,) = step.result
+    shown = result.parts[-1]
+    for meaning in reversed(step.defines):
+        shown = mapped(shown, lambda node, one=meaning: one.parts[-1] if node == one.parts[0] else node)
+    expanded = mapped(solution.forms("qdd_forward"), with_force_letters(solution.robot))
+    inputs = zip(solution.robot.inputs, map(letters.force, solution.robot.coordinates), strict=True)
+    names = {letter: Symbol(name) for name, letter in inputs}
+    one, other = (mapped(tree, lambda node: names.get(node, node)) for tree in (shown, expanded))
+    program = compile_trees([one, other])
+    for _, (found, right) in islice(states_with(solution.robot.ring, program.run), 3):
+        assert np.allclose(found, right, rtol=1e-9)
+
+
+def test_the_summary_tells_the_entries_of_an_inertia_matrix_that_it_has_not() -> None:
+    def told(text: str) -> str:
+        return report(dynsolve.solve(text), Format.TEXT, detail=Detail.RESULTS).decode()
+
+    assert "d₃₃ = m₃ l₃²" in told(ARM)
+    with_inertia = told(ARM.replace("[qdd", "[D, qdd"))
+    assert with_inertia.count("d₃₃ = m₃ l₃²") == 1 and "b₂ = " in with_inertia
+    assert "Δ" not in told(CART)  # as short multiplied out
 
 
 DISK = """
@@ -180,7 +230,6 @@ masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]
     ("text", "name", "formula"),
     [
         (LARGE, "qdd_forward", "𝐪̈ = 𝐃⁻¹ (𝛕 - 𝐂 𝐪̇ - 𝐠)"),
-        (LONG + "find: [qdd_forward]", "qdd_forward", "𝐪̈ = 𝐃⁻¹ (𝛕 - 𝐂 𝐪̇ - 𝐠)"),
         (
             LONG + "constraints: [tip.y, tip.x - k]\nfind: [lambda]",
             "lambda",
@@ -292,13 +341,13 @@ find: [c, qdd_forward]
 """
 
 
-def test_what_is_long_has_an_inverse_by_entries_and_one_denominator_and_stands_once() -> None:
+def test_what_is_coupled_through_one_coordinate_is_in_entries_without_those_that_are_zero() -> None:
     shown = " ".join(report(dynsolve.solve(BRANCHES), Format.TEXT).decode().split())
-    assert "det 𝐃 = d₂₂ (d₁₁ d₃₃ - d₁₃²) - d₁₂² d₃₃" in shown
-    assert shown.count("q̈₁ = ") == 1 and "has the accelerations 𝐪̈ as functions of the forces." in shown
+    assert "(d₂₂ d₃₃ b₁ - d₁₂ d₃₃ b₂ - d₁₃ d₂₂ b₃)/Δ" in shown
     assert "Christoffel symbols Γ₁₁₁, Γ₁₁₂, …, Γ₃₃₃ and the accelerations" in shown
-    one = "(b (4m₂ J (3r² n² + l² (1 + n² - 2n) + 3r l (n² - n) c₂)"
-    assert shown.count(one) == 2 and f"(m₃ b² {one[3:]}" in shown
+    one = "(b (4m₂ J (3r² n² + l² (1 + n² - 2n) + 3r l (n² - n) cos(q₂))"
+    found = to_unicode(dynsolve.solve(BRANCHES).forms("qdd_forward"))
+    assert found.count(one) == 2 and f"(m₃ b² {one[3:]}" in found  # one denominator
 
 
 def test_a_denominator_is_the_determinant_and_not_its_opposite() -> None:

@@ -21,7 +21,8 @@ def text(problem: str) -> str:
 def test_the_rows_of_accelerations_have_the_names_of_their_coordinates() -> None:
     friction = "friction: {q1: {viscous: f, coulomb: c}}\n"
     told = text(f"{ARM}{friction}find: [qdd_forward]\n")
-    assert 0 < told.index("q̈₂ = ") < told.index("q̈₁ = ")
+    assert 0 < told.index("d₂₂ b₁ - d₁₂ b₂") < told.index("d₁₁ b₂ - d₁₂ b₁")
+    assert "(2q̇₂ q̇₁ + q̇₁²)" in told[told.index("b₁ = ") : told.index("b₂ = ")]
 
 
 def test_a_row_in_rates_is_no_gradient() -> None:

@@ -63,10 +63,12 @@ def quotient(reader: Reader, above: list[Token], below: list[Token], start: int)
 
 
 def _strip_d(tokens: list[Token]) -> list[Token] | None:
-    """The tokens behind the d of a derivative, None where there is none."""
-    if not tokens:
+    """The tokens behind the d of a derivative, None where there is none, as in d_11/Δ."""
+    if not tokens or [token.kind for token in tokens[1:2]] == ["_"]:
         return None
     first = tokens[0]
+    if first.kind == "letter" and len(tokens) == 1:
+        return None
     if _is_d(first):
         return tokens[1:]
     if first.kind == "name" and first.text[0] == "d" and len(first.text) > 1 and not first.dots:

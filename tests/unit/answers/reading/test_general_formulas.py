@@ -96,6 +96,24 @@ def test_accelerations_are_given_one_by_one_or_as_a_vector(text: str) -> None:
     assert (answer.name, str(answer.verdict)) == ("qdd_forward", "correct")
 
 
+COUPLED = read_problem("""
+gravity: none
+model: {coordinates: {x: prismatic, y: prismatic}, D: [[m1 + m2, m2], [m2, m2 + m3]]}
+find: [D, qdd_forward]
+""")
+
+
+def test_accelerations_in_the_entries_of_the_inertia_matrix_are_no_derivatives() -> None:
+    text = r"""
+$$D = \begin{bmatrix} m_1 + m_2 & m_2 \\ m_2 & m_2 + m_3 \end{bmatrix}$$
+$$\Delta = m_1 m_2 + m_1 m_3 + m_2 m_3$$
+
+$$\ddot x = \frac{d_{22} f_1 - d_{12} f_2}{\Delta}, \quad \ddot y = \frac{d_{11} f_2 - d_{12} f_1}{\Delta}$$
+"""
+    answers = check(COUPLED, read_submission(COUPLED, text, "report.md")).answers
+    assert [str(answer.verdict) for answer in answers] == ["correct", "correct"]
+
+
 def test_an_acceleration_alone_is_listed() -> None:
     found = read_submission(FORWARD, r"$$\ddot x = u/m$$", "report.md")
     assert found.answers == ()
