@@ -136,6 +136,7 @@ u_i | entry i of any vector
 * 𝐐: generalized forces of what acts from outside; Q_i: their entries | | {force}
 * 𝐡: what the constraints keep at 0; {A_C}: constraint matrix; 𝛌: multipliers
 * {Z} | rates that the constraints leave free
+* {DIVISOR}, {DIVISOR_THERE} | what the entries of a result are divided by, given where it stands
 * Δ_k | leading minor k of a matrix: the determinant of its first k rows
 * {TAU_STATIC} | forces and torques that hold the arm at rest | {force}
 m_i | mass of body i | kg

@@ -341,7 +341,7 @@ OWN: dict[tuple[str, int], tuple[str, ...]] = {
     ("V", 0): ("H", "nu"),
     ("theta", 1): ("beta",),
     ("d", 1): ("p",),
-    ("a", 1): ("b",),
+    ("a", 1): ("delta",),
     ("alpha", 1): ("gamma",),
     **dict.fromkeys((("x", 1), ("y", 1), ("z", 1)), ()),
 }

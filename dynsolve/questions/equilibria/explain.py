@@ -81,7 +81,6 @@ LETTERS = """
 * {STEADY_ENERGY} | potential energy less the kinetic energy of a steady motion | J
 * {F_RATES} | factors of the rates in the friction
 * 𝐒 | selects the inputs
-* {DIVISOR} | what the entries of a result are divided by, given where it stands
 """
 """The lines of its letters in the list of notation."""
 

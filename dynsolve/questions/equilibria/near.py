@@ -378,9 +378,9 @@ def linear_divisor(context: Context) -> SharedDivisor | None:
     if not matrices:
         return None
     size = determinant(linearization.at_equilibrium(context.robot).matrix(context.values["D"]))
-    found = shared_divisor(context.forms.products, matrices, size)
+    shared = shared_divisor(context.forms.products, matrices, size)
     is_taken = "qdd_forward" in context.wanted  # where Δ is det D in every configuration
-    return replace(found, letter=letters.DIVISOR_THERE) if found and is_taken else found
+    return replace(shared, letter=letters.DIVISOR_THERE) if shared and is_taken else shared
 
 
 def _linear_form(context: Context, name: str, shared: SharedDivisor | None) -> Node:

@@ -30,6 +30,9 @@ from dynsolve.questions.forward_dynamics.derive import TOO_LARGE, acting_names
 from dynsolve.questions.forward_dynamics.named import OfEntries, named
 from dynsolve.questions.independent_rows import where_independent
 
+LETTERS = "* b_i | what acts on coordinate i beside its inertia | {force}"
+"""The line of its letter in the list of notation."""
+
 
 def steps(context: Context) -> Iterator[Step]:
     """q̈ from the forces, where it is asked for."""

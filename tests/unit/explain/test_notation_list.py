@@ -290,7 +290,7 @@ def test_a_letter_that_is_taken_gives_way() -> None:
         (OF_IDENTITIES, {"eta": "chi", "u": "xi", "U": "mu", "V": "H", "n": "N"}),
         (OF_SOLUTIONS, {"psi": "omega", "A": "E", "B": "F", "X": "S", "Y": "T"}),
         (OF_CONSTRAINTS, {"lambda": "nu", "tau": "T", "f": "F", "u": "xi"}),
-        (OF_THE_TABLE, {"theta": "beta", "d": "p", "a": "b"}),
+        (OF_THE_TABLE, {"theta": "beta", "d": "p", "a": "delta"}),
     ],
 )
 def test_the_letters_of_a_solution_give_way_too(problem: str, others: dict[str, str]) -> None:
