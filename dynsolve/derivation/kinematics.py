@@ -12,9 +12,11 @@ the joint turns about: that where the row starts, i-1, in the standard conventio
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
 
 from dynsolve.algebra.matrix import Matrix, cross, hstack
+from dynsolve.algebra.ring import Expr
 from dynsolve.robot.model import Convention, Joint, JointType, Robot
 
 
@@ -91,6 +93,24 @@ def linear_jacobian(robot: Robot, frames: Sequence[Matrix], point: Matrix, link:
         return cross(axis(H), point - origin(H)) if joint.type is JointType.REVOLUTE else axis(H)
 
     return _by_coordinate(robot, frames, link, column)
+
+
+def distances_from_axis(robot: Robot, values: Mapping[str, Any]) -> Iterator[Expr]:
+    """The components of the ways from the first axis about which something turns to the mass centres.
+
+    They stand beside the rate of its angle in the velocities, along the axes of the frame that it turns.
+    Single terms are left out.
+    """
+    ring = robot.ring
+    joint = next((joint for joint in robot.joints if joint.variable == "theta"), None)
+    if joint is None:
+        return
+    for body in robot.bodies:
+        along = rotation(values[f"H{joint.index}"]).T @ values[f"v{body.name}"]
+        for k, _ in joint.rates:
+            place = ring.symbol_indices[ring.names[k], 1]
+            slopes = (Expr(ring, x.poly.derivative(place)) for x in along.entries)
+            yield from (slope for slope in slopes if len(slope) > 1)
 
 
 def angular_jacobian(robot: Robot, frames: Sequence[Matrix], link: int) -> Matrix:

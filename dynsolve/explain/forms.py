@@ -28,6 +28,7 @@ from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.derivation.actions import stored_apart
 from dynsolve.derivation.graph import Derivation, Skipped
+from dynsolve.derivation.kinematics import distances_from_axis
 from dynsolve.errors import AlgebraError
 from dynsolve.explain.entry_formulas import EntryFormulas, Factor, coriolis_matrix, pairs, rates_of_pair
 from dynsolve.explain.parameter_meanings import angles_in, names_in
@@ -74,6 +75,9 @@ _ENERGIES = (*_KINETIC, PS)
 LONG_INTEGER = 10**6
 """An integer from which on decimals are shorter."""
 
+MOST_OF_RADII = 4
+"""Up to this number of coordinates squares of radii are looked for."""
+
 _SHORT = 5
 """The terms of an entry of a long regressor for which both ways are tried."""
 
@@ -102,7 +106,9 @@ class Forms:
     @cached_property
     def compactor(self) -> Compactor:
         """The compactor of this robot's ring."""
-        return self._compactor(typed=self.robot.decimals, spelled=self.spelled)
+        few = self.robot.n <= MOST_OF_RADII
+        radii = list(distances_from_axis(self.robot, self.values)) if few else []
+        return self._compactor(typed=self.robot.decimals, spelled=self.spelled, radii=radii)
 
     @cached_property
     def spelled(self) -> tuple[tree.Sum, ...]:

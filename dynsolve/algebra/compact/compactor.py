@@ -79,6 +79,7 @@ class Compactor:
     `decimal` says that numbers are decimals, which are not drawn out of sums, unless that leaves those
     that were `typed`;
     `spelled` are sums as they are written wherever they are a factor, of rates up to their sign;
+    `radii` are distances from axes, the squares of which are looked for beside masses;
     `angles_outside` that masses are never collected outside sines and cosines; from `large` terms
     on one way of collecting is tried and not two.
 
@@ -101,10 +102,13 @@ class Compactor:
         decimal: bool = False,
         typed: Collection[Rational] = (),
         spelled: Collection[tree.Sum] = (),
+        radii: Sequence[Expr] = (),
         angles_outside: bool = False,
         large: int = LARGE,
     ) -> None:
         self.ring = ring
+        self._radii = radii
+        self._of_radii: list[tuple[Rational, Monomial, Terms]] = []
         self._groups = angle_groups(ring, parallel)
         self._atoms = RingAtoms(ring, leading, self._groups, self.form)
         self.collector = Collector(self._atoms.table, decimal=decimal, typed=typed, spelled=spelled)
@@ -142,6 +146,9 @@ class Compactor:
         return found
 
     def _collected(self, expr: Expr) -> Node:
+        if self._radii:
+            radii, self._radii = self._radii, ()  # their own forms are made without them
+            self._of_radii = list(self._products_of_radii(radii))
         moving, still = list[Node](), list[Node]()
         for drawn, power in self._given:
             expr, beside = self._drawn(expr, drawn, power)
@@ -346,6 +353,8 @@ class Compactor:
         found = self._by_angles(rest)
         if len(terms) <= self._large and any(e[MASSES] for e in terms):
             found = min(self._by_masses(rest), found, key=self._cost_without_sign)
+        elif (squared := self._by_radii(rest)) is not None:
+            found = min(squared, found, key=self.collector.cost)
         if size != 1:
             found = self.collector.sum_of([(size, (), found)])
         found = min(self._typed_square(rest) or found, found, key=self.collector.cost)
@@ -447,7 +456,8 @@ class Compactor:
         if squared is not None and cost(squared) <= cost(best):
             best = squared
         completed = self._with_square(terms, completed=True)
-        for other in (completed, self._squares_inside(terms), self._product_of_sums(terms)):
+        inside, product = self._squares_inside(terms), self._product_of_sums(terms)
+        for other in (completed, inside, product, self._by_radii(terms)):
             if other is not None and cost(other) < cost(best):
                 best = other
         return best if size == 1 else self.collector.product(size, (), (best,))
@@ -465,6 +475,35 @@ class Compactor:
             sign, trig = self._atoms.basic_trig_monomial(self._groups[g].powers.values[number], g)
             parts.append((sign, trig, self._once(self._beside_mass, part)))
         return self.collector.sum_of(parts)
+
+    def _products_of_radii(self, radii: Iterable[Expr]) -> Iterator[tuple[Rational, Monomial, Terms]]:
+        """(number, monomial, terms) of the squares of radii, and of their products with their slopes."""
+        for radius in radii:
+            if sum(split_sign(term)[0] for term in summands(self.form(radius))) < 0:
+                radius = -radius
+            slopes = [self.ring.diff(radius, k) for k in range(len(self.ring.names))]
+            for other in dict.fromkeys((radius, *slopes)):
+                if len(product := radius * other) >= SMALLEST_SQUARE:
+                    factors = tree.Product((self.form(radius), self.form(other)))
+                    yield *self.collector.decompose(factors), self._terms(product)
+
+    def _by_radii(self, terms: Terms) -> Node | None:
+        """(√3 q₂/2 + a + l c₃)² + l² s₄²: the product of a radius that leaves the shortest rest, and that."""
+        if not self._of_radii or len(terms) < SMALLEST_SQUARE:
+            return None
+        width, found = len(next(iter(terms))), list[Node]()
+        for number, mono, product in self._of_radii:
+            own = {e[-width:]: f for e, f in product.items()}
+            if any(any(e[:-width]) for e in product) or not terms.keys() >= own.keys():
+                continue  # of (a + b c)² + (b s)² and a² + b² + 2a b c the second is taken
+            ((k, _),) = Counter(exact(terms[e], f) for e, f in own.items()).most_common(1)
+            rest = dict(terms)
+            for e, f in own.items():
+                add_term(rest, e, -k * f)
+            if len(rest) + 1 < len(terms):
+                left = self._once(self._beside_mass, rest) if rest else ZERO
+                found.append(self.collector.sum_of([(k * number, mono, tree.ONE), (1, (), left)]))
+        return min(found, key=self.collector.cost, default=None)
 
     def _with_square(self, terms: Terms, *, completed: bool = False) -> Node | None:
         """(Σ root)² + the rest, where sines and cosines of one angle group make a square."""

@@ -400,7 +400,7 @@ dh:
   - {theta: q2*, a: a2, alpha: 90deg}
   - {d: q3*}
 masses:
-  - {mass: m3, link: 3}
+  - {mass: m3, link: 3, center: tip, inertia: {xx: I3xx, yy: I3yy, zz: I3zz, xz: I3xz}}
 """
     shown = in_one_line(offset)
     told = "collected with c₂² - s₂² = cos(2q₂)"

@@ -530,6 +530,37 @@ def test_a_mass_in_numbers_stands_before_the_square_of_a_distance(rows: str, ent
     assert isinstance(D, Matrix) and to_unicode(D.rows[0][0]) == entry
 
 
+WAIST = "gravity: [0, 0, -g]\ndh:\n  - {theta: q1*, d: h, a: a, alpha: 90deg}\n"
+
+
+@pytest.mark.parametrize(
+    ("rows", "masses", "entry", "symbol"),
+    [
+        (
+            "  - {theta: 30deg, a: b}\n  - {theta: q2*, a: l}\n",
+            "[{mass: m, link: 3, center: tip}]",
+            "m (√3 b/2 + a + l cos(q₂ + 30°))²",
+            "-m l sin(q₂ + 30°) (√3 b + 2a + 2l cos(q₂ + 30°))/2",
+        ),
+        (
+            "  - {theta: q2*, alpha: 90deg}\n  - {d: q3*}\n  - {theta: q4*, a: e}\n",
+            "[{mass: m3, link: 3, center: tip}, {mass: m4, link: 4, center: tip}]",
+            "m₄ ((a + q₃ s₂ + e c₂ c₄)² + e² s₄²) + m₃ (a + q₃ s₂)²",
+            "m₄ (a + q₃ s₂ + e c₂ c₄)(q₃ c₂ - e s₂ c₄) + m₃ q₃ c₂ (a + q₃ s₂)",
+        ),
+    ],
+)
+def test_beside_a_mass_stands_the_square_of_its_distance_from_the_first_axis(
+    rows: str, masses: str, entry: str, symbol: str
+) -> None:
+    """Where it has a root of a number, or angles of several groups; and so its slope, in c₁₂₁."""
+    problem = read_problem(f"{WAIST}{rows}masses: {masses}\n")
+    forms = Forms(problem.robot, derive(problem.robot))
+    style = Style(shorthand={"q2": "2", "q4": "4"})
+    assert to_unicode(forms.matrix("D").rows[0][0], style) == entry
+    assert to_unicode(forms.christoffel(0, 1, 0), style) == symbol
+
+
 def test_an_expression_of_another_ring_is_refused() -> None:
     """Its generators stand for other angles: s₂ would be printed as s₁₂."""
     one, other = (
