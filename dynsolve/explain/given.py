@@ -555,7 +555,7 @@ def _gravity(forms: Forms) -> Prose:
         told += (f" along the axes of {ground}",)
     if robot.actions.resisting:
         return (*told, ".")
-    if robot.questions.constraints or not robot.has_table:  # what rolls does so by friction
+    if robot.questions.constraints or robot.given is not None or robot.rolls:
         return (*told, "; " if along else ", and ", "no friction is given.")
     return (*told, "; there is no friction." if along else " and no friction.")
 

@@ -432,6 +432,20 @@ class Robot(Struct, frozen=True):
         return " and ".join(nouns.get(each, each) for each in self.held)
 
     @property
+    def rolls(self) -> bool:
+        """Whether a body without links turns with a length, or moves with an angle, as what rolls does."""
+        angles = [q.type is JointType.REVOLUTE for q in self.coordinates]
+        turning = [q.name for q, is_angle in zip(self.coordinates, angles, strict=True) if is_angle]
+        places = [self.ring.symbol_indices[name, 0] for name in turning]
+        for body in self.bodies if not self.has_table else ():
+            rates = [pair for turn in body.turns for pair in zip(turn.rates.entries, angles, strict=True)]
+            if any(not (rate.is_zero or (is_angle and rate.is_number)) for rate, is_angle in rates):
+                return True
+            if any(entry.poly.degrees()[place] > 0 for entry in body.center.entries for place in places):
+                return True
+        return False
+
+    @property
     def n(self) -> int:
         """The number of degrees of freedom."""
         return len(self.coordinates)

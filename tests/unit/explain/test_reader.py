@@ -260,7 +260,7 @@ model:
 find: [g]
 """
     text = in_one_line(model)
-    assert "Gravity g acts against the axis z; no friction is given." in text
+    assert "Gravity g acts against the axis z; there is no friction." in text
     assert "β: angle in the given positions (rad)" in text and "parameter of the problem" not in text
 
 

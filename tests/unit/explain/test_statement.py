@@ -228,6 +228,27 @@ ACTING = [
 ]
 
 
+@pytest.mark.parametrize(
+    ("coordinates", "body", "friction"),
+    [
+        ("{x: prismatic}", "at: [x, 0, 0], turn: -x/R", "no friction is given"),
+        ("{a: revolute}", "at: [R*a, 0, 0], turn: -a", "no friction is given"),
+        ("{a: revolute}", "at: [(R - r)*sin(a), 0, 0], turn: -a*(R - r)/r", "no friction is given"),
+        ("{a: revolute}", "at: [R*sin(a), 0, 0], turn: a", "there is no friction"),
+        ("{x: prismatic}", "at: [x*cos(b), 0, x*sin(b)]", "there is no friction"),
+    ],
+)
+def test_of_what_rolls_it_is_not_said_that_there_is_no_friction(
+    coordinates: str, body: str, friction: str
+) -> None:
+    inertia = ", inertia: {zz: J}" * ("turn" in body)
+    bodies = f"[{{mass: m, {body}{inertia}}}]"
+    (given, _) = stated(
+        solved(f"gravity: [0, 0, -g]\nmodel: {{coordinates: {coordinates}, bodies: {bodies}}}\n")
+    )
+    assert given.endswith(f"{friction}.")
+
+
 @pytest.mark.parametrize(("keys", "told"), ACTING)
 def test_the_statement_says_what_acts(keys: str, told: str) -> None:
     (given, _) = stated(solved(f"{keys}\n{ARM % 'tip'}"))
