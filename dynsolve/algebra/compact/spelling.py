@@ -76,7 +76,12 @@ class _Speller:
             case Sum(terms):
                 found = list(map(self.spelled, terms))
                 return node if _are_the_same(found, terms) else total(found)
-        return with_children(node, self.spelled) if isinstance(node, Quotient) else node
+            case Quotient():
+                match own := with_children(node, self.spelled):
+                    case Quotient(Negative(above), below):
+                        return Negative(Quotient(above, below))
+                return own
+        return node
 
     def _product(self, node: Product, factors: Sequence[Node]) -> Node:
         """The product of factors, those that are sums spelled like the first of their kind."""

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.compact.spelling import in_one_spelling
 from dynsolve.algebra.compact.trig_forms import ConstantForms, TrigForm, TrigPolynomial, trig_forms
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, evaluate, value_of
@@ -528,6 +529,11 @@ def test_a_mass_in_numbers_stands_before_the_square_of_a_distance(rows: str, ent
     problem = read_problem(f"gravity: none\ndh: [{rows}]\nmasses: [{{mass: 0.5, link: {last}}}]\n")
     D = Forms(problem.robot, derive(problem.robot))("D")
     assert isinstance(D, Matrix) and to_unicode(D.rows[0][0]) == entry
+
+
+def test_the_minus_of_a_sum_that_is_turned_stands_before_its_fraction() -> None:
+    terms = in_one_spelling(read("x*(c - s) + y*(s - c)/2").tree)
+    assert terms == read("x*(c - s) - y*(c - s)/2").tree, "and not + (-y (c - s))/2, which LaTeX would have"
 
 
 WAIST = "gravity: [0, 0, -g]\ndh:\n  - {theta: q1*, d: h, a: a, alpha: 90deg}\n"
