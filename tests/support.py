@@ -106,14 +106,17 @@ def _solved(problem: Path | str) -> dynsolve.Solution:
 
 def explained_once(solution: dynsolve.Solution) -> dynsolve.Solution:
     """The same, whose steps in the names of an abbreviated model are told once for all its reports."""
-    explain, told = solution.explain, dict[int, tuple[Abbreviated | None, tuple[Step, ...]]]()
+    explain, told = solution.explain, dict[tuple[int, bool], tuple[Abbreviated | None, tuple[Step, ...]]]()
 
-    def once(stages: Iterable[str] | None = None, short: Abbreviated | None = None) -> Iterator[Step]:
+    def once(
+        stages: Iterable[str] | None = None, short: Abbreviated | None = None, *, by_energies: bool = False
+    ) -> Iterator[Step]:
         if stages is not None:
-            return explain(stages, short)
-        if id(short) not in told:
-            told[id(short)] = short, tuple(explain(None, short))
-        return iter(told[id(short)][1])
+            return explain(stages, short, by_energies=by_energies)
+        key = id(short), by_energies
+        if key not in told:
+            told[key] = short, tuple(explain(None, short, by_energies=by_energies))
+        return iter(told[key][1])
 
     vars(solution)["explain"] = once
     return solution

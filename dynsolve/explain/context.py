@@ -35,7 +35,8 @@ class Context(Struct, frozen=True):
     `find` are the names of what the exercise asks for.
     `normals` are those of a drawing that the table was found from, `lengths` values in m as the
     file has them.  `names` are those that the steps are written in, where they are in some,
-    and `introduced` which of them a step brings in, by its id.
+    and `introduced` which of them a step brings in, by its id.  With `by_energies` 𝐃 is read off from 𝒦:
+    nothing that is asked for needs the forces, and the equations of Lagrange are not told.
     """
 
     robot: Robot
@@ -47,6 +48,7 @@ class Context(Struct, frozen=True):
     names: Abbreviated | None = None
     introduced: Mapping[str, tuple[Definition, ...]] = field(default_factory=dict)
     find: tuple[str, ...] = ()
+    by_energies: bool = False
 
     @property
     def wanted(self) -> frozenset[str]:

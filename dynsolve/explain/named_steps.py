@@ -61,16 +61,25 @@ def in_names(context: Context, stages: Collection[Stage]) -> Context:
     names = context.names
     if names is None or not names.at_symbols:
         return context
-    return replace(context, introduced=introduced(context.robot, names, stages))
+    dropped = {"L", "Cqd", *of_forces(context.robot)} if context.by_energies else ()
+    return replace(context, introduced=introduced(context.robot, names, stages, dropped))
 
 
 def introduced(
-    robot: Robot, names: Abbreviated, stages: Collection[Stage] = tuple(Stage)
+    robot: Robot,
+    names: Abbreviated,
+    stages: Collection[Stage] = tuple(Stage),
+    dropped: Collection[str] = (),
 ) -> dict[str, tuple[Definition, ...]]:
-    """The names that each step introduces, in the order of the steps; h has its own place."""
+    """The names that each step introduces, in the order of the steps; h has its own place.
+
+    Those of `dropped` are told no more.
+    """
     known = set() if names.single is None else {names.single.name}
     found: dict[str, tuple[Definition, ...]] = {}
     for id, results in _results(robot, names, stages):
+        if id in dropped:
+            continue
         needed = set(_symbols(results)) - known
         for one in reversed(names.sums):
             if one.name in needed:
@@ -83,15 +92,19 @@ def introduced(
     return found
 
 
+def of_forces(robot: Robot) -> list[str]:
+    """The ids of the steps of Lagrange's equations, in their order."""
+    return [f"{stem}{q.index}" for q in robot.coordinates for stem in ("dLdqd", "ddt", "dLdq", "tau")]
+
+
 def _results(robot: Robot, names: Abbreviated, stages: Collection[Stage]) -> Iterator[tuple[str, list[Node]]]:
     """The ids of the steps in whose results names may be, in their order, and these."""
-    coordinates = [q.index for q in robot.coordinates]
     by_recursions = robot.questions.method is Method.NEWTON_EULER
     of_stages = {
         Stage.ENERGY: ["K"],
         Stage.LAGRANGIAN: ["L"],
-        Stage.TORQUE: [f"{stem}{k}" for k in coordinates for stem in ("dLdqd", "ddt", "dLdq", "tau")],
-        Stage.NEWTON_EULER: [f"tau{k}" for k in coordinates if by_recursions],
+        Stage.TORQUE: of_forces(robot),
+        Stage.NEWTON_EULER: [f"tau{q.index}" for q in robot.coordinates if by_recursions],
         Stage.VECTORIZED: ["D", "Cqd"],
     }
     for stage, ids in of_stages.items():

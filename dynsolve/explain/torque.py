@@ -29,8 +29,9 @@ def steps(context: Context) -> Iterator[Step]:
         from dynsolve.explain.actions import friction_steps
 
         yield from friction_steps(context)
-    for q in context.robot.coordinates:
-        yield from _of_coordinate(context, q)
+    if not context.by_energies:
+        for q in context.robot.coordinates:
+            yield from _of_coordinate(context, q)
 
 
 def _of_coordinate(context: Context, q: Coordinate) -> Iterator[Step]:
@@ -206,6 +207,8 @@ def _driven_by(context: Context, q: Coordinate) -> Prose:
 
 def lagrangian_steps(context: Context) -> Iterator[Step]:
     """L = K - P"""
+    if context.by_energies:
+        return
     end = ending(context, "L", {"L": (letters.L,)})
     yield Step(
         id="L",

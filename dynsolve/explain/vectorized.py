@@ -48,8 +48,11 @@ LONGEST_IN_PARTS = 150
 
 def steps(context: Context) -> Iterator[Step]:
     """D, C and g read off; from the energies assembled directly too, and compared."""
-    yield inertia(context)
-    yield rest(context)
+    if context.by_energies:
+        yield inertia_of_energy(context)
+    else:
+        yield inertia(context)
+        yield rest(context)
     if from_energies(context):
         yield from direct(context)
     yield christoffel_step(context)
@@ -108,6 +111,27 @@ def inertia(context: Context) -> Step:
         source=f"from {spong('7.3')}",
         **asdict(end),
         uses=_forces(context),
+        entries=letters.entries("d", n),
+        detail=Detail.BRIEF,
+    )
+
+
+def inertia_of_energy(context: Context) -> Step:
+    """D, read off from the kinetic energy."""
+    n = context.robot.n
+    entries = say("entry $d_ii$ is twice the factor of $q̇_i²$ in it, and $d_ij$ the factor of $q̇_i q̇_j$")
+    if n > 1 and is_diagonal(context.values["D"]):
+        entries = say("it has no product of two rates, so $𝐃$ is diagonal, with twice the factor of $q̇_i²$")
+    if n == 1:
+        entries = say("its entry is twice the factor of the squared rate")
+    return Step(
+        id="D",
+        title="The inertia matrix, read off from the kinetic energy",
+        why=say("The kinetic energy is $𝒦 = ½ 𝐪̇ᵀ 𝐃 𝐪̇$ with a symmetric $𝐃$: {entries}.", entries=entries),
+        formula=formula("d_ij = ∂/∂q̇_j (∂𝒦/∂q̇_i)"),
+        source=f"from {spong('7.2.2')}",
+        **asdict(ending(context, "D", {"D": (letters.D,)})),
+        uses=("K",),
         entries=letters.entries("d", n),
         detail=Detail.BRIEF,
     )
@@ -257,6 +281,8 @@ def coriolis(context: Context, told: tuple[Prose, tuple[Node, ...]] | None = Non
 def gravity(context: Context, told: tuple[Prose, Way] | None = None) -> Step:
     """g, from the potential energy; of a long model as it is `told`."""
     directly = say("Directly, without $𝛕$: the partial derivatives of the potential energy.")
+    if context.by_energies:
+        directly = say("The partial derivatives of the potential energy.")
     none = say(" It does not depend on any coordinate, so $𝐠$ is zero.")
     why = (*directly, *none) if context.values["g"].is_zero else directly
     why, way = told or (why, Way(gravity_rows(context)))

@@ -66,7 +66,7 @@ from dynsolve.robot import units
 from dynsolve.robot.model import Robot
 from dynsolve.solution.depths import Drawn, Shown
 from dynsolve.solution.dynamics import Dynamics
-from dynsolve.solution.leading import leading
+from dynsolve.solution.leading import leading, needs_forces
 from dynsolve.solution.numbers import given
 from dynsolve.solution.numbers.substitution import DIGITS
 from dynsolve.solution.summary import in_summary, stands_twice, summary_blocks
@@ -200,8 +200,14 @@ def solution_documents(
     stages = None if stages is None else tuple(stages)
 
     def made(short: Abbreviated | None) -> tuple[Document, ...]:
-        steps = tuple(measured_steps(solution.explain(stages, short), solution.robot, solution.style))
-        least = leading(solution, steps) if stages is None else steps
+        def told(*, by_energies: bool) -> tuple[Step, ...]:
+            steps = solution.explain(stages, short, by_energies=by_energies)
+            return tuple(measured_steps(steps, solution.robot, solution.style))
+
+        steps = least = told(by_energies=False)
+        if stages is None and any(detail is not Detail.FULL for detail in details):
+            is_shorter = not needs_forces(solution, steps)
+            least = leading(solution, told(by_energies=True) if is_shorter else steps)
         shown = ((detail, steps if detail is Detail.FULL else least) for detail in details)
         parts = (_Parts(solution, detail, stages, own, drawn, short) for detail, own in shown)
         return tuple(each.document() for each in parts)

@@ -217,14 +217,21 @@ class Dynamics(Struct, frozen=True, dict=True):
         )
 
     def explain(
-        self, stages: Iterable[str] | None = None, short: Abbreviated | None = None
+        self,
+        stages: Iterable[str] | None = None,
+        short: Abbreviated | None = None,
+        *,
+        by_energies: bool = False,
     ) -> Iterator[Step]:
-        """The steps of some stages, in the order of the course; with `short`, in its names."""
+        """The steps of some stages, in the order of the course; with `short`, in its names.
+
+        With `by_energies` 𝐃 is read off from 𝒦, and the forces are not told.
+        """
         from dynsolve.explain import explain
 
-        if stages is None and short is None:
+        if stages is None and short is None and not by_energies:
             return iter(self.steps)
-        context = replace(self._context, names=short)
+        context = replace(self._context, names=short, by_energies=by_energies)
         return iter(self._remarked(explain(context, stages), whole=stages is None))
 
     @property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from dynsolve.derivation.rules import course_rules
 from dynsolve.explain.step import Detail, Step
@@ -11,6 +11,7 @@ from dynsolve.notation.tree import Node, walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.questions import Method
 from dynsolve.solution.dynamics import Dynamics
 
 _MODEL = {"D", "C", "g"}
@@ -25,9 +26,41 @@ _WHOLE_WITH = {
 """Stages that are told as a whole where all of this is wanted; else only the steps that lead on are."""
 
 
+_OF_ENERGIES = {"D": ("K",)}
+"""What is derived from the energies where the forces are not asked for."""
+
+
+def needs_forces(solution: Dynamics, steps: Sequence[Step]) -> bool:
+    """Whether something that is asked for is derived from the forces, though 𝐃 is read off from 𝒦."""
+    robot, asked, named = solution.robot, _asked(solution), _named(steps)
+    is_course = robot.questions.method is Method.LAGRANGE and robot.given is None
+    if not is_course or asked.isdisjoint(named):
+        return True
+    forces = {"L", "tau", *(f"tau{q.index}" for q in robot.coordinates)}
+    return not forces.isdisjoint(_closure(asked, named, {**_inputs(solution), **_OF_ENERGIES}, _OF_ENERGIES))
+
+
+def _named(steps: Sequence[Step]) -> dict[str, Step]:
+    """The steps by their ids and all that they give."""
+    return {name: step for step in steps for name in (step.id, *step.also)}
+
+
+def _asked(solution: Dynamics) -> set[str]:
+    """The rules of what is asked for; with the whole model the friction that stands in it."""
+    asked = {_rule(solution, name) for name in solution.problem.find}
+    return asked.union(solution.robot.actions.resistance) if asked >= _MODEL else asked
+
+
+def _inputs(solution: Dynamics) -> dict[str, Sequence[str]]:
+    """What each quantity is computed from by its rule."""
+    return {
+        rule.name: rule.inputs for rule in (*solution.values.rules.values(), *course_rules(solution.robot))
+    }
+
+
 def leading(solution: Dynamics, steps: Sequence[Step]) -> tuple[Step, ...]:
     """Those of a solution's steps that are asked for, or that such steps are derived from."""
-    asked = {_rule(solution, name) for name in solution.problem.find}
+    asked = _asked(solution)
     if "tau" in asked:
         forces = {f"tau{q.index}" for q in solution.robot.coordinates}
         told = walk(*(node for step in steps if step.id in forces for node in step.result))
@@ -35,11 +68,9 @@ def leading(solution: Dynamics, steps: Sequence[Step]) -> tuple[Step, ...]:
         weighs = "g" not in solution.values.rules or not solution.values["g"].is_zero
         if asked >= _MODEL - {"g"} and not weighs:  # they are the whole model
             asked |= _MODEL
-    named = {name: step for step in steps for name in (step.id, *step.also)}
+    named, inputs = _named(steps), _inputs(solution)
     if asked.isdisjoint(named):
         return tuple(steps)
-    inputs = {name: rule.inputs for name, rule in solution.values.rules.items()}
-    inputs |= {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     has_rates = "Cqd" in solution.values.rules and not solution.values["Cqd"].is_zero
     wanted, kept = set[str](), tuple[Step, ...]()
     while True:
@@ -64,16 +95,24 @@ def _rule(solution: Dynamics, name: str) -> str:
 
 
 def _closure(
-    names: Iterable[str], named: Mapping[str, Step], inputs: Mapping[str, Sequence[str]], *, has_rates: bool
+    names: Iterable[str],
+    named: Mapping[str, Step],
+    inputs: Mapping[str, Sequence[str]],
+    by_rule: Collection[str] = (),
+    *,
+    has_rates: bool = False,
 ) -> Iterator[str]:
-    """Names and all that they are derived from, by their steps or, without steps, by their rules."""
+    """Names and all that they are derived from, by their steps or, without steps, by their rules.
+
+    Those of `by_rule` are derived by their rules alone.
+    """
     seen, waiting = set[str](), list(names)
     while waiting:
         name = waiting.pop().partition("#")[0]
         if name not in seen:
             seen.add(name)
             yield name
-            step = named.get(name)
+            step = None if name in by_rule else named.get(name)
             uses = inputs.get(name, ()) if step is None or step.uses is None else step.uses
             waiting += (*uses, *(() if step is None else (step.id, *step.also)))
             if name == "Cqd" and step is not None and step.detail is Detail.FULL and has_rates:

@@ -64,9 +64,9 @@ def test_recursions_end_at_the_forces() -> None:
 
 
 def test_a_passive_coordinate_has_no_force_to_read_off() -> None:
-    text = told(ARM + "passive: [q2]\nfind: [D]")
+    text = told(ARM + "passive: [q2]\nfind: [tau, D]")
     assert "in the right side of equation i" in text and "dᵢⱼ = ∂τᵢ/∂q̈ⱼ" not in text
-    assert "dᵢⱼ = ∂τᵢ/∂q̈ⱼ" in told(ARM + "find: [D]")
+    assert "dᵢⱼ = ∂τᵢ/∂q̈ⱼ" in told(ARM + "find: [tau, D]")
 
 
 def test_how_a_product_is_read_off_is_said_where_it_is_used() -> None:

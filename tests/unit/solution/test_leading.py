@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.document import Heading
-from dynsolve.explain.step import Detail
+from dynsolve.explain.step import Detail, Step
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.documents import solution_document
-from dynsolve.solution.leading import leading
+from dynsolve.solution.leading import leading, needs_forces
 from tests.support import solved
 
 ARM = """
@@ -41,11 +41,35 @@ def _sections(find: str, detail: Detail = Detail.NORMAL) -> list[str]:
         ("P", [*_KINEMATICS, *_ENERGY]),
         ("tau1", [*_KINEMATICS, *_ENERGY, *_FORCES]),
         ("tau, singular", [*_KINEMATICS, _ENERGY[0], *_TASK, *_ENERGY[1:], *_FORCES]),
-        ("D, C, g", [*_KINEMATICS, *_ENERGY, *_FORCES, "The matrix form"]),
+        ("tau, D", [*_KINEMATICS, *_ENERGY, *_FORCES, "The matrix form"]),
+        ("D", [*_KINEMATICS, *_ENERGY, "The matrix form"]),
+        ("D, C, g", [*_KINEMATICS, *_ENERGY, "The matrix form"]),
     ],
 )
 def test_a_section_leads_to_what_is_asked(find: str, sections: list[str]) -> None:
     assert _sections(find) == sections
+
+
+@pytest.mark.parametrize(
+    "acting", ["", "friction: {q1: {viscous: b}}\n", "springs: [{stiffness: k, of: q2}]\n"]
+)
+@pytest.mark.parametrize("find", ["D", "D, C, g", "Lambda", "D, g"])
+def test_without_forces_to_find_the_inertia_is_read_off_from_the_energy(find: str, acting: str) -> None:
+    """Spong, Hutchinson, Vidyasagar (2006), section 7.3: D from K, C from D, g from P."""
+    text = acting + ARM % find
+    (D,) = (one for one in _steps(text) if one.id == "D")
+    assert D.uses == ("K",)
+    ids = {one.id for one in _steps(text)}
+    assert ids.isdisjoint({"L", "dLdqd1", "ddt1", "dLdq1", "tau1", "Cqd"})
+    assert ("friction" in ids) is ("friction" in acting and "C" in find)
+    assert "tau1" in {one.id for one in solved(text).steps}
+
+
+def _steps(text: str) -> tuple[Step, ...]:
+    solution = solved(text)
+    steps = tuple(solution.explain())
+    assert not needs_forces(solution, steps)
+    return leading(solution, tuple(solution.explain(by_energies=True)))
 
 
 def test_full_has_every_section() -> None:
