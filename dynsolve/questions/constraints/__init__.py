@@ -1,6 +1,7 @@
 """Constraints: their matrix, its rate, the multipliers.
 
-`forms` has the equations of motion without multipliers as formulas.
+`closed` has the equations of motion without multipliers in the accelerations that are free, `forms` both as
+formulas.
 """
 
 from __future__ import annotations

@@ -168,8 +168,10 @@ def verify(held: Held) -> None:
     kept = ("hc", "Ac", "Ac_dot", "lambda", "qdd_forward", *acting)
     held.hold(verify_constraints, (name for name in kept if name in held.wanted))
     if "reduced" in held.wanted and not isinstance(held.values["reduced"], Skipped):
-        residuals = [Sum((left, Negative(right))) for left, right in ReducedForms(robot, held.values).reduced]
-        verify_reduced(robot, {name: held.forms(name) for name in constrained_names(robot)}, residuals)
+        forms = ReducedForms(robot, held.values)
+        for equations in filter(None, (forms.reduced, forms.closed)):
+            residuals = [Sum((left, Negative(right))) for left, right in equations]
+            verify_reduced(robot, {name: held.forms(name) for name in constrained_names(robot)}, residuals)
 
 
 ACTING = ("Cqd", "g", "friction")

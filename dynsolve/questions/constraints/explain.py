@@ -5,7 +5,9 @@ And of forward dynamics: the accelerations that forces make, and the inertia Λ 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+
+from msgspec.structs import replace
 
 from dynsolve.algebra.linear_systems import adjugate, quotient
 from dynsolve.algebra.lowest_terms import zero_of_all
@@ -39,11 +41,13 @@ from dynsolve.notation.tree import (
     Number,
     Parenthesized,
     Sum,
+    Symbol,
     column,
     equation,
     mapped,
 )
 from dynsolve.quantities import letters
+from dynsolve.questions.constraints.closed import Closed, closed
 from dynsolve.questions.constraints.derive import bordered, holonomic
 from dynsolve.questions.forward_dynamics.derive import Reduced, acting_names
 from dynsolve.questions.forward_dynamics.explain import (
@@ -249,10 +253,11 @@ def _reduced(context: Context) -> Iterator[Step]:
         moving=moving_side(context),
         right=Parenthesized(right) if isinstance(right, Sum) else right,
     )
-    free, rows = formula("𝐙 = {shown}", shown=context.show(Z)), _free_rows(context, found)
+    equations = () if isinstance(found, Skipped) else found.equations
+    free, rows = formula("𝐙 = {shown}", shown=context.show(Z)), _free_rows(context, equations)
     led = "Row by row" if len(rows) > 1 else "Multiplied out"
     zeros = [equation(without_number(context.show(zero)), Number(0)) for zero in found.zeros] if rows else []
-    yield Step(
+    step = Step(
         id="reduced",
         title=title,
         why=say(
@@ -274,6 +279,31 @@ def _reduced(context: Context) -> Iterator[Step]:
         result=rows or (whole, free),
         uses=("Ac", "D", *acting_names(context.robot)),
     )
+    A = context.values["Ac"]
+    short = closed(context.robot, A, found) if isinstance(found, Reduced) else None
+    if short is not None:
+        step = _in_free_accelerations(context, step, short)
+    elif rows and len(rows) + len(A.rows) == context.robot.n:
+        told = "With {kept} these are as many equations as there are accelerations."
+        step = replace(step, notes=(say(told, kept=_KEPT),))
+    yield step
+
+
+def _in_free_accelerations(context: Context, step: Step, found: Closed) -> Step:
+    """The same step, going on to the equations in which what the constraints give is put in."""
+    coordinates = context.robot.coordinates
+    given = [
+        equation(Symbol(coordinates[k].name, dots), context.show(value))
+        for dots, values in ((1, found.rates), (2, found.accelerations))
+        for k, value in values
+    ]
+    told = say("$𝐀_c 𝐪̇ = 𝟎$ and, differentiated, $𝐀_c 𝐪̈ + 𝐀̇_c 𝐪̇ = 𝟎$ give:")
+    return replace(
+        step,
+        lines=(*step.lines, Line(step.concluding, step.result, is_kept=True), Line(told, tuple(given))),
+        concluding=("Put in:",),
+        result=_free_rows(context, found.equations),
+    )
 
 
 def _freer(context: Context, Z: Matrix) -> Prose:
@@ -287,13 +317,11 @@ def _freer(context: Context, Z: Matrix) -> Prose:
     return say(text, zeros=listed(zeros, "or")) if zeros else ()
 
 
-def _free_rows(context: Context, found: Reduced | Skipped) -> tuple[Node, ...]:
-    """Zᵀ (D q̈ + C q̇ + g) = Zᵀ (τ + Q), row by row; none where they are too long to be read."""
-    if isinstance(found, Skipped):
-        return ()
+def _free_rows(context: Context, equations: Iterable[tuple[Expr, Expr]]) -> tuple[Node, ...]:
+    """Zᵀ (D q̈ + C q̇ + g) = Zᵀ (τ + Q), row by row."""
     named = with_force_letters(context.robot)
     return tuple(
-        equation(context.show(left), mapped(context.show(right), named)) for left, right in found.equations
+        equation(context.show(left), mapped(context.show(right), named)) for left, right in equations
     )
 
 

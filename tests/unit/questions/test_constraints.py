@@ -178,11 +178,57 @@ find: [reduced]
 """
 
 
-def test_an_equation_is_not_half_put_in() -> None:
-    """r times the first equation and the second (by hand), with no ẍ = r q̈ in some of the terms."""
-    rows, told = reduced_rows(SLIDE)
-    assert rows == ["m (r + l cos(q)) ẍ + (m (l² + l r cos(q)) + J) q̈ - m l r sin(q) q̇² = r f₁ + τ₂"]
-    assert told == "('Multiplied out:',)"
+ATWOOD = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x1: prismatic, x2: prismatic}
+  bodies: [{mass: m1, at: [0, -x1, 0]}, {mass: m2, at: [d, -x2, 0]}]
+passive: [x1, x2]
+constraints: [x1 + x2 - L]
+find: [reduced]
+"""
+ROLLING = """
+gravity: none
+model:
+  coordinates: {x: prismatic, y: prismatic, phi: revolute, psi: revolute}
+  D: [[m, 0, 0, 0], [0, m, 0, 0], [0, 0, I, 0], [0, 0, 0, J]]
+passive: [x, y]
+constraints: [{rates: x' - R*cos(phi)*psi'}, {rates: y' - R*sin(phi)*psi'}]
+find: [reduced]
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "rows"),
+    [
+        (SLIDE, ["(m (l² + r² + 2l r cos(q)) + J) q̈ - m l r sin(q) q̇² = r f₁ + τ₂"]),
+        (ATWOOD, ["(m₁ + m₂) ẍ₂ + g (m₁ - m₂) = 0"]),
+        (ROLLING, ["I φ̈ = τ₃", "(m R² + J) ψ̈ = τ₄"]),
+    ],
+)
+def test_what_the_constraints_give_is_put_in(text: str, rows: list[str]) -> None:
+    """By hand: the equation of the slide is r times the first and the second, with ẍ = r q̈."""
+    assert reduced_rows(text) == (rows, "('Put in:',)")
+
+
+def test_before_that_no_equation_is_half_put_in() -> None:
+    (step,) = (step for step in dynsolve.solve(SLIDE).steps if step.id == "reduced")
+    before, given = (
+        [unicodedata.normalize("NFC", to_unicode(row)) for row in line.formulas] for line in step.lines[1:]
+    )
+    assert before == ["m (r + l cos(q)) ẍ + (m (l² + l r cos(q)) + J) q̈ - m l r sin(q) q̇² = r f₁ + τ₂"]
+    assert given == ["ẋ = r q̇", "ẍ = r q̈"]
+
+
+def test_where_a_rate_takes_a_quotient_the_constraint_stands_beside_the_equations() -> None:
+    (step,) = (
+        step
+        for step in dynsolve.solve(
+            find("knife-edge").read_text(encoding="utf-8").replace("lambda]", "lambda, reduced]")
+        ).steps
+        if step.id == "reduced"
+    )
+    assert "as many equations as there are accelerations" in str(step.notes)
 
 
 def test_what_stands_in_the_equations_without_multipliers_is_shown_before() -> None:
