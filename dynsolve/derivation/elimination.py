@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import product
 from math import hypot, prod
 from operator import mul
+from typing import Any
 
 from msgspec import Struct
 
@@ -22,6 +23,9 @@ from dynsolve.algebra.ring import Expr
 Rows = Sequence[Sequence[float]]
 
 _INDEPENDENT = 1e-4
+MOST_OF_QUADRATIC = 300
+"""Expressions with more terms are not looked at as quadratics: none of a mechanism was one."""
+
 _SMALL = 1e-9
 _ALONG = 1e-6
 """What of a gradient is no direction of its own: a length, and a part of the gradient."""
@@ -274,6 +278,8 @@ def _is_of_positive_numbers(value: Expr) -> bool:
 def _is_quadratic_without_zeros(value: Expr) -> bool:
     """Whether a value is a x² - b x + c of a parameter x, with 4a c > b²: m² g² - 2m g k h + k² (b² + h²)."""
     ring, monomials = value.ring, value.poly.monoms()
+    if len(monomials) > MOST_OF_QUADRATIC:
+        return False
     for g in ring.generators:
         if (
             g.kind != "symbol"
@@ -281,14 +287,22 @@ def _is_quadratic_without_zeros(value: Expr) -> bool:
             or {int(m[g.index]) for m in monomials} != {0, 1, 2}
         ):
             continue
-        parts = [ring.zero] * 3
-        for exponents, number in value.poly.to_dict().items():
-            plain = tuple(0 if k == g.index else e for k, e in enumerate(exponents))
-            parts[exponents[g.index]] += Expr(ring, ring.ctx.from_dict({plain: number}))
-        c, b, a = parts
+        parts = _by_powers(value, (g.index,))
+        c, b, a = (parts[power,] for power in range(3))
         if is_positive(a) and is_positive(4 * a * c - b * b):
             return True
     return False
+
+
+def _by_powers(value: Expr, indices: tuple[int, ...]) -> dict[tuple[int, ...], Expr]:
+    """The parts of an expression beside the powers of some generators, by these powers."""
+    ring = value.ring
+    parts: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
+    for exponents, number in value.poly.to_dict().items():
+        key = tuple(int(exponents[k]) for k in indices)
+        plain = tuple(0 if k in indices else e for k, e in enumerate(exponents))
+        parts.setdefault(key, {})[plain] = number
+    return {key: Expr(ring, ring.ctx.from_dict(part)) for key, part in parts.items()}
 
 
 def _factored(value: Expr) -> tuple[bool, list[tuple[Expr, int]]]:
@@ -327,11 +341,7 @@ def turn_of(value: Expr) -> Turn | None:
     """An expression as such a sum; None where it is another, or holds no angle."""
     ring = value.ring
     for pair in ring.pairs:
-        parts: dict[tuple[int, int], Expr] = {}
-        for exponents, number in value.poly.to_dict().items():
-            key = (int(exponents[pair.cosine]), int(exponents[pair.sine]))
-            plain = tuple(0 if k in (pair.cosine, pair.sine) else e for k, e in enumerate(exponents))
-            parts[key] = parts.get(key, ring.zero) + Expr(ring, ring.ctx.from_dict({plain: number}))
+        parts = _by_powers(value, (pair.cosine, pair.sine))
         if not parts.keys() - {(0, 0)}:
             continue
         free = not any(ring.depends_on_coordinates(part) for part in parts.values())

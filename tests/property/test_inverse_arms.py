@@ -26,7 +26,7 @@ import dynsolve
 
 Vector = npt.NDArray[np.float64]
 
-SEEDS = range(300, 330)
+SEEDS = range(300, 318)
 STATES = 12
 CLOSE = 1e-6
 

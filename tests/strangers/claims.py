@@ -433,6 +433,10 @@ def _sums(m: Mechanism, s: Sentence) -> bool:
 
 
 @says("Here it is diagonal: no acceleration enters the force of another coordinate.")
+@says(
+    "The kinetic energy is {} with a symmetric {}: it has no product of two rates, so {} is diagonal, with "
+    "twice the factor of {}."
+)
 def _diagonal(m: Mechanism, s: Sentence) -> bool:
     return all(near(D, np.diag(np.diag(D))) for D in (m.result("D", p) for p in m.points()))
 

@@ -88,7 +88,7 @@ class Mechanism:
     def result(self, name: str, point: Point) -> Any:
         if name not in point.results:
             raise Unknown
-        return point.results[name]().value
+        return point.results[name].value
 
     def frame(self, i: int, point: Point) -> Any:
         """Frame i, as a 4×4 matrix; frame 0 from a row that starts there."""

@@ -72,12 +72,17 @@ def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.ndarray) and value.size == 1 else value
 
 
+Place = tuple[int, ...]
+Placed = tuple[Node, Place]
+"""The form of a result, and the place of an entry in it."""
+
+
 @dataclass
 class Point:
     """What symbols and letters are at a random state; those that are `free` are nothing there.
 
     `names` has the numbers of the symbols, and `results` the results by their names; each is evaluated
-    when it is asked for, by its name or by its letter, one of `letters`.
+    when it is asked for, by its name or by its letter, which is that of a name in `letters`.
 
     The forces of motors are free where something acts from outside, or where there are passive coordinates:
     the `passive` ones are 0 in a motion and not in any state.
@@ -86,8 +91,8 @@ class Point:
     known: dict[Node, Value] = field(default_factory=dict)
     free: set[Node] = field(default_factory=set)
     names: dict[str, float] = field(default_factory=dict)
-    results: dict[str, Callable[[], Value]] = field(default_factory=dict)
-    letters: dict[Node, Callable[[], Value]] = field(default_factory=dict)
+    results: Results = field(default_factory=lambda: Results({}, _nothing))
+    letters: Mapping[Node, str] = field(default_factory=dict)
     passive: list[Callable[[], Value]] = field(default_factory=list)
     is_read: bool = False
     """Whether the letters of the steps are known, which the report defines."""
@@ -100,7 +105,7 @@ class Point:
         """The value of a formula.  Raises Unknown."""
         found = self.known.get(node)
         if found is None and node in self.letters:
-            found = self.known[node] = self.letters[node]()
+            found = self.known[node] = self.results[self.letters[node]]
         return self._of(node) if found is None else found
 
     def _of(self, node: Node) -> Value:
@@ -219,31 +224,46 @@ def _code(form: Node) -> CodeType:
 def random_point(solution: Any, seed: int) -> Point:
     """The symbols at random or as the file gives them, and the letters of all results, each evaluated."""
     point = state(solution, seed, {})
-    for result in point.results.values():
-        result()
+    for _ in point.results.values():
+        pass
     for letter in point.letters:
         point.value(letter)
     return point
 
 
-class _Later:
-    """A value that is evaluated when it is first asked for."""
+class Results(Mapping[str, Value]):
+    """The values of forms at a state, each evaluated when it is first asked for."""
 
-    def __init__(self, evaluated: Callable[[], Value]) -> None:
-        self.evaluated = evaluated
-        self.value: Value | None = None
+    def __init__(self, forms: Mapping[str, Placed], evaluated: Callable[[Node, Place], Value]) -> None:
+        self.forms, self.evaluated = forms, evaluated
+        self.values_found: dict[str, Value] = {}
 
-    def __call__(self) -> Value:
-        if self.value is None:
-            self.value = self.evaluated()
-        return self.value
+    def __getitem__(self, name: str) -> Value:
+        if name not in self.values_found:
+            self.values_found[name] = self.evaluated(*self.forms[name])
+        return self.values_found[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.forms
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.forms)
+
+    def __len__(self) -> int:
+        return len(self.forms)
 
 
-def _results(solution: Any) -> list[tuple[str, Node, Node, tuple[int, ...]]]:
-    """The name of each result, its letter, its form and its place in that; once for all states."""
+def _nothing(form: Node, place: Place) -> Value:
+    raise KeyError(form)
+
+
+def _results(solution: Any) -> tuple[dict[str, Placed], dict[Node, str]]:
+    """The form of each result and its place in that, and the names by their letters; once for all states."""
     if "results of the oracle" not in vars(solution):
-        vars(solution)["results of the oracle"] = list(_forms(solution))
-    found: list[tuple[str, Node, Node, tuple[int, ...]]] = vars(solution)["results of the oracle"]
+        forms = list(_forms(solution))
+        placed = {name: (form, place) for name, _, form, place in forms}
+        vars(solution)["results of the oracle"] = placed, {letter: name for name, letter, _, _ in forms}
+    found: tuple[dict[str, Placed], dict[Node, str]] = vars(solution)["results of the oracle"]
     return found
 
 
@@ -305,15 +325,15 @@ def state(solution: Any, seed: int, at: Mapping[str, float]) -> Point:
         number = eval(_code(form), functions, in_python)  # noqa: S307
         return Value(number, abs(number))
 
-    for name, letter, form, place in _results(solution):
-        point.results[name] = point.letters[letter] = _Later(partial(value, form, place))
+    forms, named = _results(solution)
+    point.results = Results(forms, value)
     coordinates = [q.name for q in robot.coordinates]
-    forces = [point.letters.get(letters.force(q)) for q in robot.coordinates]
-    point.passive = [force for k, force in enumerate(forces) if force and k in robot.actions.passive]
+    forces = [named.get(letters.force(q)) for q in robot.coordinates]
+    passive = [forces[k] for k in robot.actions.passive]
+    point.passive = [partial(point.results.__getitem__, force) for force in passive if force]
     if robot.questions.loads or robot.questions.constraints or robot.actions.passive:
         point.free = {letters.TAU, *map(letters.force, robot.coordinates)}
-    for letter in point.free:
-        point.letters.pop(letter, None)
+    point.letters = {letter: name for letter, name in named.items() if letter not in point.free}
     for dots in range(3):
         column = np.array([[point.known[tree.Symbol(name, dots)].value] for name in coordinates])
         point.known[letters.bold("q", dots=dots)] = Value(column, np.abs(column))

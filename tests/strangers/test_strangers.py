@@ -53,7 +53,7 @@ def test_a_stranger_is_solved_and_nothing_false_is_printed(seed: int) -> None:
         assert "help:" in str(refused)
 
 
-@pytest.mark.parametrize("seed", range(5, 125, 10))
+@pytest.mark.parametrize("seed", range(5, 85, 10))
 def test_results_do_not_depend_on_names(seed: int) -> None:
     plain = stranger(seed)
     other, names = renamed(plain, Random(seed))

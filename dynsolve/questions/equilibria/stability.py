@@ -22,7 +22,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import StrEnum
 from fractions import Fraction
-from functools import partial
+from functools import cache, partial
 from itertools import combinations, permutations, product
 from math import lcm
 from typing import Any
@@ -45,6 +45,9 @@ from dynsolve.derivation.existence import DEGREES, Pose, conditions, rests, squa
 from dynsolve.derivation.singular.sets import Alternative, Special, TooLong, common_zeros, with_numbers
 from dynsolve.derivation.singular.zeros import Condition
 from dynsolve.questions.equilibria.multipliers import Along, Here, Multipliers
+
+MOST_ADDED = 200
+"""Minors with more terms are not added to others, to see whether one of two is negative."""
 
 MOST_SHOWN_TERMS = 12
 """Factors with more terms are not told."""
@@ -391,6 +394,7 @@ class Curvature(Struct, frozen=True):
         `here` puts in what is known there, up to a positive factor.
         """
 
+        @cache
         def minor(chosen: tuple[int, ...]) -> Expr:
             plain = Matrix.of(second.ring, [[determinant(part(second, chosen, chosen))]])
             apart, found = _put(plain, values)[0, 0], here(plain)[0, 0]
@@ -486,7 +490,8 @@ def _falls(minor: Minor, rest: Sequence[int], signs: ParameterSigns) -> bool:
     signed = [one for one in minors if not one.is_zero]
     if any(is_more(-one, Bound(other)) for one, other in permutations(signed, 2)):
         return True
-    return any(signs.is_positive(-(one + other)) for one, other in combinations(minors, 2))
+    short = (one for one in minors if len(one) <= MOST_ADDED)
+    return any(signs.is_positive(-(one + other)) for one, other in combinations(short, 2))
 
 
 def _never_falls(minor: Minor, rest: Sequence[int], signs: ParameterSigns) -> bool:

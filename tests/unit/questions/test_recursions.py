@@ -71,14 +71,13 @@ SKEW = """
 base: {rotate: Rx(20deg), move: [0, h, 0]}
 gravity: [0, -g, 0]
 dh:
-  - {theta: q1*, d: d1, a: a1}
-  - {theta: 30deg, alpha: 90deg, a: b}
+  - {theta: q1*, a: a1}
+  - {theta: 30deg, alpha: 90deg, d: b}
   - {d: q2*, alpha: beta}
   - {theta: 2*q3* - q1*, a: a3}
 masses:
   - {mass: m, link: 2, center: [x, y, z], inertia: {xx: I, xy: J}}
-  - {mass: m3, link: 4, center: [x, 0, z], inertia: {zz: I3}, axes: Rz(90deg)}
-  - {name: p, mass: mp, link: 4, center: [0, w, 0]}
+  - {name: p, mass: m3, link: 4, center: [x, w, 0], inertia: {zz: I3}, axes: Rz(90deg)}
 find: [tau]
 """
 

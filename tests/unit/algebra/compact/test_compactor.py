@@ -233,7 +233,7 @@ def test_a_constant_angle_is_added_to_another(written: str, printed: str) -> Non
 QUANTITIES = ["D", "C", "g", "tau", "K", "P", "L", "ddt1", "dLdq1", "H1"]
 
 
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(robots(max_joints=3))
 def test_it_is_the_same_function(text: str) -> None:
     robot = read_problem(text).robot
