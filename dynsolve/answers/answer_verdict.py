@@ -21,7 +21,7 @@ from dynsolve.algebra.fraction import RationalExpr, same
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.slips import slip, told
-from dynsolve.answers.diagnosis.wrong_entry import WrongEntry, multiplied_back
+from dynsolve.answers.diagnosis.wrong_entry import LONGEST, WrongEntry, multiplied_back
 from dynsolve.answers.judging.answer_values import AnswerValue
 from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.judging.explanation import Explanations, entry_of
@@ -117,7 +117,7 @@ class AnswerJudge:
         )
         judged = self._matrix(base, compared, entries) if entries else self._scalar(base, compared, whole)
         if judged.verdict is Verdict.WRONG and compared.missed is not None:
-            judged = _missing(judged, compared.missed)
+            judged = self._missing(judged, compared.missed)
         nothing = self.explanations.of_nothing(compared) if judged.verdict is Verdict.WRONG else ()
         if not nothing:
             return judged
@@ -244,6 +244,25 @@ class AnswerJudge:
         )
         return multiplied_back(wrong) if compared.answer_value.answer.is_equation else wrong
 
+    def _missing(self, judged: JudgedAnswer, missed: Missed) -> JudgedAnswer:
+        """An answer that misses an equation, which is told first, unless a slip explains it.
+
+        Where the key is one of many solutions, such an answer is wrong as a whole.
+        """
+        kept = judged.diagnosis
+        if missed.is_one_of_many:
+            kept = tuple(one for one in kept if one.code in _BY_ITSELF)
+            judged = replace(judged, entries=(), difference=None)
+        elif kept:
+            return judged
+        row = ""
+        if missed.value is not None and missed.goal is not None:
+            value, goal = map(self.diagnoser.words.fraction, (missed.value, missed.goal))
+            is_short = max(len(value), len(goal)) <= LONGEST // 2
+            row = f": in row {missed.row}, {missed.left} is {value} and not {goal}" if is_short else row
+            row = row or f": see row {missed.row}"
+        return replace(judged, diagnosis=(slip("equation", part=row, other=missed.equation), *kept))
+
     # -- where it was given several times ----------------------------------------------------------
 
     def _occurrences(self, name: str, chains: list[Chain]) -> tuple[Occurrence, ...]:
@@ -276,28 +295,6 @@ class AnswerJudge:
 
 _BY_ITSELF = ("dimensions", "unknown_symbol", "odd_argument", "numbers_for_letters")
 """What is told of an entry by itself, whatever the key is."""
-
-
-def _missing(judged: JudgedAnswer, missed: Missed) -> JudgedAnswer:
-    """An answer that misses an equation, which is told first, unless a slip explains it.
-
-    Where the key is one of many solutions, an entry that differs from its entry shows no slip by that.
-    """
-    if missed.is_one_of_many:
-        told = (
-            [d for entry in judged.entries for d in entry.diagnosis] if judged.entries else judged.diagnosis
-        )
-        against_key = [d for d in told if d.code not in _BY_ITSELF]
-        found = tuple(d for d in judged.diagnosis if d not in against_key)
-        entries = tuple(
-            replace(entry, diagnosis=tuple(d for d in entry.diagnosis if d not in against_key))
-            for entry in judged.entries
-        )
-        judged = replace(judged, diagnosis=found, entries=entries)
-    elif judged.diagnosis:
-        return judged
-    first = slip("equation", part=str(missed.row), other=missed.equation)
-    return replace(judged, diagnosis=(first, *judged.diagnosis))
 
 
 def _placed_in_chain(base: JudgedAnswer, chain: Chain) -> JudgedAnswer:

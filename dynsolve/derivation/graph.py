@@ -24,11 +24,13 @@ class Rule(Struct, frozen=True):
 class Skipped(Struct, frozen=True):
     """What stands for a value whose work goes over a bound, and why.
 
-    `value` is there where it is known, and only too long to be read: answers are compared with it.
+    `value` is there where it is known, and only too long to be read: answers are compared with it.  So they
+    are with `one` of many solutions, none of which is shown.
     """
 
     why: str
     value: Any = None
+    one: Any = None
 
 
 def known(value: Any) -> Any:

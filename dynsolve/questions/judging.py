@@ -127,9 +127,10 @@ class Case(Struct, frozen=True):
 
     `node` is what it is an answer to, `quantity` the same as a record; `entries` are the first of each row
     that was written, and `value` all of them of the kind of another value, None where they are none.
-    `agrees` says whether the entry of a row stands for a value.  `result` gives the key's values,
-    `chosen` are columns as the student chose them, `in_numbers` puts the problem's
-    numbers in.  `is_equation` says that it was written as one side of `... = 0`.
+    `agrees` says whether the entry of a row stands for a value, `makes` whether Σ factorⱼ entryⱼ does with
+    the problem's numbers, which `in_numbers` puts in.  `result` gives the key's values,
+    `chosen` are columns as the student chose them.  `is_equation` says that it was written as one side of
+    `... = 0`.
     """
 
     robot: Robot
@@ -141,6 +142,7 @@ class Case(Struct, frozen=True):
     result: Callable[[str], Any]
     chosen: Mapping[str, Matrix]
     in_numbers: Callable[[RationalExpr], RationalExpr]
+    makes: Callable[[Sequence[Expr], Expr], bool]
     is_equation: bool = False
 
     @property
@@ -165,13 +167,17 @@ class Case(Struct, frozen=True):
 
 
 class Missed(Struct, frozen=True):
-    """An equation that an answer does not satisfy, in that row, from 1.
+    """An equation that an answer does not satisfy, in that row, from 1: there `left` is `value`, not `goal`.
 
-    Where the key `is_one_of_many` solutions, or the nearest to one, what differs from it tells no slip.
+    Of what is too long to be put in no row is known.  Where the key `is_one_of_many` solutions, or the
+    nearest to one, its entries are no measure.
     """
 
     equation: str
-    row: int
+    row: int = 0
+    left: str = ""
+    value: RationalExpr | None = None
+    goal: RationalExpr | None = None
     is_one_of_many: bool = False
 
 

@@ -196,7 +196,7 @@ _SLIPS = (
          "Check which joint or axis each row belongs to."),
     Slip("shape", "the size of the matrix", "{yours}", "Count rows and columns."),
     Slip("span", "another space", "{yours}", "Put your vectors into the equation that they must solve."),
-    Slip("equation", "an equation", "Your answer does not satisfy {other}: see row {part}.",
+    Slip("equation", "an equation", "Your answer does not satisfy {other}{part}.",
          "Put it into this equation, row by row."),
     # in what acts beside gravity: friction, springs, rotors, forces from outside and of constraints
     Slip("friction_missing", "friction left out", "Friction is left out.",

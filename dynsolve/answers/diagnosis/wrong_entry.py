@@ -18,6 +18,7 @@ from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.ring_values import evaluate
 from dynsolve.answers.diagnosis.mends import Exchange, is_small, likeness, monomial_expr, parts
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.judging.answer_ring import AnswerRing
@@ -26,9 +27,19 @@ from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import Target
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.explain.context import style_of
-from dynsolve.explain.forms import leading_names, parallel_coordinates
+from dynsolve.explain.forms import ProductForms, leading_names, parallel_coordinates
 from dynsolve.notation.build import ends, power, times
-from dynsolve.notation.tree import Function, Negative, Node, Number, Product, Quotient, Symbol, number
+from dynsolve.notation.tree import (
+    Function,
+    Negative,
+    Node,
+    Number,
+    Product,
+    Quotient,
+    Symbol,
+    names_in,
+    number,
+)
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.index import Quantity
 from dynsolve.robot.model import Robot
@@ -132,6 +143,9 @@ def _kept(mine: Expr, terms: dict[Any, Any], places: Collection[Exponents]) -> E
 
 LONGEST = 160
 
+LONG_DENOMINATOR = 100
+"""What is over such an integer came of a decimal."""
+
 MOST_PRINTED = 4_000
 """So many parts of trees are remembered."""
 
@@ -159,6 +173,15 @@ class TermWriter:
         """An expression in one line."""
         text = self._printer.text(self.form(expr))
         return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
+
+    def fraction(self, value: RationalExpr) -> str:
+        """A fraction in one line, with decimals where its own are long."""
+        value = cancelled(value)
+        numbers = (*value.numerator.poly.coeffs(), *value.denominator.poly.coeffs())
+        decimal = any(fraction(number).denominator >= LONG_DENOMINATOR for number in numbers)
+        if decimal and not names_in(self.form(value.numerator * value.denominator)):
+            return f"{evaluate(value.numerator, {}) / evaluate(value.denominator, {}):.4g}"
+        return self._printer.text(ProductForms(self.compactor, decimal=decimal).fraction(value))
 
     def number(self, value: Fraction) -> str:
         """A number."""

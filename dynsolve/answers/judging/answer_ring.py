@@ -28,7 +28,7 @@ from dynsolve.algebra.ring_plan import RingPlan
 from dynsolve.algebra.ring_values import ring_of
 from dynsolve.algebra.sampling import Transfer
 from dynsolve.answers.judging.evaluate import Known, KnownValues, extension_of
-from dynsolve.derivation.graph import Derivation, known
+from dynsolve.derivation.graph import Derivation, Skipped, known
 from dynsolve.derivation.rules import course_rules
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Node
@@ -123,7 +123,10 @@ class AnswerRing:
         """The key's value of a name, in this ring."""
         found = self._moved.get(name)
         if found is None:
-            found = self._moved[name] = self.move(known(self._key[name]))
+            value = known(self._key[name])
+            if isinstance(value, Skipped) and value.one is not None:
+                value = value.one
+            found = self._moved[name] = self.move(value)
         return found
 
     @cached_property

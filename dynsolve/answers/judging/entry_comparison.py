@@ -22,7 +22,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.fraction import RationalExpr, equal, simplified
+from dynsolve.algebra.fraction import RationalExpr, equal, multiply, simplified, summed
 from dynsolve.algebra.linear_systems import rank_parts, same_span
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import half_unit, rational
@@ -79,6 +79,27 @@ class EntryComparer(Struct, frozen=True):
         if mine.divisor is None and _rounds(expected, mine.numerator, self._steps(written)):
             return ROUNDED
         return None
+
+    def is_made(self, expected: Expr, factors: Sequence[Expr], written: Sequence[WrittenEntry]) -> bool:
+        """Whether Σ factorⱼ entryⱼ is what is expected, with the problem's numbers, or rounds to it."""
+        put = placed(self.values, expected.ring)
+
+        def valued(value: RationalExpr) -> RationalExpr:
+            return simplified(put_numbers(value, put))
+
+        scales, goal = [RationalExpr(factor) for factor in factors], valued(RationalExpr(expected))
+        terms = map(multiply, scales, (entry.value for entry in written))
+        mine = valued(summed(terms, expected.ring.zero))
+        if equal(goal, mine):
+            return True
+        if goal.divisor is not None or mine.divisor is not None:
+            return False
+        steps = (
+            valued(multiply(scale, RationalExpr(step))).numerator
+            for scale, entry in zip(scales, written, strict=True)
+            for step in self._steps(entry)
+        )
+        return _rounds(goal.numerator, mine.numerator, steps)
 
     def _with_fraction(self, expected: RationalExpr, written: WrittenEntry) -> str | None:
         """The same where a fraction is expected: as it is, or with numbers for all symbols that have one."""

@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cached_property
-from itertools import islice
+from itertools import islice, product
 from typing import Any
 
 from dynsolve.algebra.fraction import RationalExpr
@@ -183,6 +183,18 @@ class Explanations:
         for value in self._rests_on_answers(compared):
             if all(self._explains(value, compared, i, j) for i, j in different):
                 return value
+        return self._of_own_equation(compared) if compared.holds_with is not None else None
+
+    def _of_own_equation(self, compared: KeyComparison) -> PossibleValue | None:
+        """What an answer rests on that solves the equation which the student's own answers make."""
+        assert compared.holds_with is not None
+        for route in self.values.routes(compared.target.node):
+            ways = product(*map(self.values.choices, route.inputs))
+            for chosen in islice(ways, MOST_EXPECTED):
+                used = frozenset().union(*(one.used for one in chosen))
+                own = {name: one.value for name, one in zip(route.inputs, chosen, strict=True)}
+                if used and compared.holds_with(own):
+                    return PossibleValue(None, 0, used)
         return None
 
     def of_span(self, compared: KeyComparison) -> PossibleValue | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -33,6 +33,7 @@ from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.index import Quantity
+from dynsolve.quantities.stages import Stage
 from dynsolve.questions.constraints.judge import OwnConstraint
 from dynsolve.questions.judging import Case, Missed
 from dynsolve.questions.parameters import REGRESSORS
@@ -64,7 +65,7 @@ class KeyComparison(Struct, frozen=True):
 
     `other` says how it is right although it is not the key's.  `written` are
     the vectors of an answer that is a space, in the ways in which they may be meant.  `missed` is an
-    equation that it does not satisfy.
+    equation that it does not satisfy, `holds_with` whether it does with own values of other results.
     """
 
     answer_value: AnswerValue
@@ -75,6 +76,7 @@ class KeyComparison(Struct, frozen=True):
     other: str = ""
     written: tuple[Matrix, ...] = ()
     missed: Missed | None = None
+    holds_with: Callable[[Mapping[str, Any]], bool] | None = None
 
     @property
     def correct(self) -> bool:
@@ -144,8 +146,17 @@ class KeyComparer:
         stages = [one.family.stage for one in self.graph.quantities.values()]
         other = "" if compared.correct else other_solution(case, stages)
         if not other:
-            return compared if compared.correct else replace(compared, missed=missed(case, stages))
+            miss = None if compared.correct else missed(case, stages)
+            return replace(compared, missed=miss, holds_with=self._held_by(case, stages) if miss else None)
         return replace(compared, right=tuple(tuple("" for _ in row) for row in rows), other=other)
+
+    def _held_by(self, case: Case, stages: Sequence[Stage]) -> Callable[[Mapping[str, Any]], bool]:
+        """Whether an answer is right where own values stand for some of the key's."""
+
+        def result(own: Mapping[str, Any], name: str) -> Any:
+            return own[name] if name in own else self.graph.key(name)
+
+        return lambda own: bool(other_solution(replace(case, result=partial(result, own)), stages))
 
     def _case(self, node: str, quantity: Quantity | None, rows: Rows, is_equation: bool) -> Case:
         ring, values = self.answer_ring.ring, tuple(tuple(entry.value for entry in row) for row in rows)
@@ -159,6 +170,7 @@ class KeyComparer:
             self.graph.key,
             self.graph.parameters,
             lambda value: put_numbers(value, placed(self.compare.values, ring)),
+            lambda factors, wanted: self.compare.is_made(wanted, factors, [row[0] for row in rows]),
             is_equation,
         )
 

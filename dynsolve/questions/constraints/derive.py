@@ -18,7 +18,7 @@ Siciliano, Sciavicco, Villani, Oriolo, Robotics, section 11.4 for constraints on
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 
 from dynsolve.algebra.linear_systems import (
@@ -86,9 +86,19 @@ def constraint_matrix(robot: Robot, h: Matrix) -> Matrix:
 def multipliers(
     robot: Robot, A: Matrix, A_dot: Matrix, D: Matrix, acting: Matrix
 ) -> Matrix | FractionMatrix | Skipped:
-    """λ, c×1; `acting` is τ + Q - C q̇ - g, n×1: what is left of the forces beside D q̈."""
-    if rank_parts(A).rank < len(A.rows):
-        return Skipped(DEPENDENT)
+    """λ, c×1; `acting` is τ + Q - C q̇ - g, n×1: what is left of the forces beside D q̈.
+
+    Of dependent rows many λ have the same A_cᵀ λ, one of them with 0 where a row follows from others.
+    """
+    independent = rank_parts(A).rows
+    if len(independent) < len(A.rows):
+        found = multipliers(robot, _rows(A, independent), _rows(A_dot, independent), D, acting)
+        if isinstance(found, Skipped):
+            return found
+        of = dict(zip(independent, map(fraction_of, found.entries), strict=True))
+        none = fraction_of(D.ring.zero)
+        rows = ([of.get(i, none)] for i in range(len(A.rows)))
+        return Skipped(DEPENDENT, one=tidy(D.ring, rows))
     if work(D) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
     through, scale = A @ adjugate(D), determinant(D)
@@ -100,6 +110,10 @@ def multipliers(
         return _together(A, D, vstack(acting, -along), slice(len(D.rows), None))
     wanted = through @ acting + along.scale(scale)
     return if_readable(quotient(-(adjugate(square) @ wanted), determinant(square)))
+
+
+def _rows(matrix: Matrix, places: Iterable[int]) -> Matrix:
+    return Matrix(matrix.ring, tuple(matrix.rows[i] for i in places))
 
 
 def accelerations(

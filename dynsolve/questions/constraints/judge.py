@@ -15,7 +15,7 @@ from typing import Any
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.fraction import FractionRows as Rows
 from dynsolve.algebra.fraction import RationalExpr, multiply, same, summed
-from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of
+from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of, rank_parts
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import samples
@@ -29,6 +29,7 @@ from dynsolve.questions.judging import (
     Case,
     Fault,
     Judged,
+    Missed,
     SetKey,
     SetVerdict,
     by_code,
@@ -242,3 +243,13 @@ def _moves_alike(case: Case) -> bool:
 
 
 EQUIVALENCES = (right_as(ON_CONSTRAINT, _moves_alike, "qdd_forward"),)
+
+
+def _unbalanced(case: Case) -> Missed | None:
+    """The equation of multipliers where many satisfy it, of which the key is one."""
+    A: Matrix = case.result("Ac")
+    has_many = rank_parts(A).rank < len(A.rows)
+    return Missed("D q̈ + C q̇ + g = τ + A_cᵀ λ", is_one_of_many=True) if has_many else None
+
+
+MISSED = {"lambda": _unbalanced}

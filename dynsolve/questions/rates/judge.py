@@ -6,81 +6,88 @@ is the one of least norm.
 
 from __future__ import annotations
 
-from dynsolve.algebra.fraction import RationalExpr, multiply, summed
+from collections.abc import Sequence
+
+from msgspec import Struct
+
+from dynsolve.algebra.fraction import RationalExpr, multiply, same, summed
 from dynsolve.algebra.linear_systems import is_solvable, rank_parts
 from dynsolve.algebra.matrix import AtState, Matrix
-from dynsolve.algebra.ring_values import evaluate
-from dynsolve.algebra.sampling import samples
+from dynsolve.algebra.ring import Expr
 from dynsolve.questions.judging import Case, Missed, right_as
 from dynsolve.questions.rates.derive import wanted_by_accelerations
 
 OF_MANY = "another solution than that of least norm, which is the key"
-
-_ROUNDED = 0.02
-"""A row that is missed by no more than this share of its terms may be missed by rounding alone."""
 
 _LONGEST = 400
 """Values with more terms are not put into the equations."""
 
 
 def _solves(case: Case) -> bool:
-    """Whether rates or accelerations of the joints do what is asked of the task."""
-    system = _in_numbers(case)
-    return system is not None and not _rows_missed(case, system[0].T @ system[0], system[0].T @ system[1])
+    """Whether rates or accelerations of the joints do what is asked of the task, but for rounded decimals."""
+    equation = _equation(case)
+    return equation is not None and not _is_long(case) and equation.row_missed(case) is None
 
 
 def _missed(case: Case) -> Missed | None:
-    """The equation, and its first row, that they do not satisfy; None where there is none that is known."""
-    system = _in_numbers(case)
-    if system is None:
+    """The equation that they do not satisfy, and what stands in its first row; None where none is known."""
+    equation = _equation(case)
+    if equation is None:
         return None
-    J, right = system
-    left, whole = ("ṙ", "J_r q̇") if case.node == "qd" else ("r̈", "J_r q̈ + J̇_r q̇")
-    equation = f"{left} = {whole}"
-    if not is_solvable(J, right):
-        equation, J, right = f"J_rᵀ ({whole} - {left}) = 0", J.T @ J, J.T @ right
-    rows = _rows_missed(case, J, right, _ROUNDED)
-    is_one_of_many = rank_parts(J).rank < J.shape[1] or not equation.startswith(left)
-    return Missed(equation, rows[0], is_one_of_many) if rows else None
+    row = None if _is_long(case) else equation.row_missed(case)
+    if row is None:
+        return Missed(equation.text, is_one_of_many=equation.has_many)
+    J, b, known = (m.rows[row] for m in (equation.J, equation.b, equation.known))
+    value = _sum_of(case, J, known[0] - b[0])
+    goal = RationalExpr(known[0])
+    if all(same(((entry,),), ((case.in_numbers(entry),),)) for entry in case.entries):
+        value, goal = case.in_numbers(value), case.in_numbers(goal)
+    return Missed(equation.text, row + 1, equation.whole, value, goal, equation.has_many)
 
 
-def _in_numbers(case: Case) -> tuple[Matrix, Matrix] | None:
-    """(J, b) with the problem's numbers; None also where an answer is too long to be put in."""
-    system = _system(case)
-    x = [case.in_numbers(entry) for entry in case.entries]
-    if system is None or sum(len(entry.numerator) + len(entry.denominator) for entry in x) > _LONGEST:
-        return None
-    J, right = (m.map(lambda entry: case.in_numbers(RationalExpr(entry)).numerator) for m in system)
-    return J, right
+class _Equation(Struct, frozen=True):
+    """J x = b, in which `whole` must be `known`; it `has_many` solutions, or none but the nearest."""
+
+    text: str
+    whole: str
+    J: Matrix
+    b: Matrix
+    known: Matrix
+    has_many: bool
+
+    def row_missed(self, case: Case) -> int | None:
+        """The first row, from 0, that an answer does not satisfy."""
+        rows = enumerate(zip(self.J.rows, self.b.entries, strict=True))
+        return next((k for k, (row, goal) in rows if not case.makes(row, goal)), None)
 
 
-def _rows_missed(case: Case, matrix: Matrix, right: Matrix, share: float = 0.0) -> list[int]:
-    """The rows, from 1, in which they do not solve matrix x = right, by more than a `share` of the terms."""
-    x = [case.in_numbers(entry) for entry in case.entries]
-    at = next(iter(samples(matrix.ring)))
-
-    def size(value: RationalExpr) -> float:
-        return abs(evaluate(value.numerator, at) / evaluate(value.denominator, at))
-
-    found = []
-    for k, (row, goal) in enumerate(zip(matrix.rows, right.entries, strict=True), 1):
-        terms = [*map(multiply, map(RationalExpr, row), x), RationalExpr(-goal)]
-        off = summed(terms, matrix.ring.zero)
-        if not off.is_zero and (not share or size(off) > share * sum(map(size, terms))):
-            found.append(k)
-    return found
+def _is_long(case: Case) -> bool:
+    entries = [case.in_numbers(entry) for entry in case.entries]
+    return sum(len(entry.numerator) + len(entry.denominator) for entry in entries) > _LONGEST
 
 
-def _system(case: Case) -> tuple[Matrix, Matrix] | None:
-    """(J, b) at the state, None of what is no solution of such a system."""
+def _sum_of(case: Case, row: Sequence[Expr], start: Expr) -> RationalExpr:
+    """Σ Jⱼ xⱼ and what is added to it."""
+    return summed(map(multiply, map(RationalExpr, row), case.entries), start)
+
+
+def _equation(case: Case) -> _Equation | None:
+    """The equation at the state, None of what is no solution of such a system."""
     asked = case.robot.questions
     at = AtState(case.robot.ring, asked.state.by_symbol)
-    if case.node == "qd" and asked.velocity is not None:
-        return at.matrix(case.result("Jr")), at.matrix(asked.velocity)
-    if case.node == "qdd" and asked.acceleration is not None:
-        wanted = wanted_by_accelerations(case.robot, asked.acceleration, case.result("Jr_dot"))
-        return at.matrix(case.result("Jr")), at.matrix(wanted)
-    return None
+    known = asked.velocity if case.node == "qd" else asked.acceleration if case.node == "qdd" else None
+    if known is None or len(case.entries) != case.robot.n:
+        return None
+    b, left, whole = known, "ṙ", "J_r q̇"
+    if case.node == "qdd":
+        b = wanted_by_accelerations(case.robot, known, case.result("Jr_dot"))
+        left, whole = "r̈", "J_r q̈ + J̇_r q̇"
+    J, b, known = (at.matrix(m) for m in (case.result("Jr"), b, known))
+    numbers, right = (m.map(lambda e: case.in_numbers(RationalExpr(e)).numerator) for m in (J, b))
+    if is_solvable(numbers, right):
+        return _Equation(f"{left} = {whole}", whole, J, b, known, rank_parts(numbers).rank < J.shape[1])
+    b, whole = J.T @ b, f"J_rᵀ ({whole} - {left})"
+    return _Equation(f"{whole} = 0", whole, J.T @ J, b, b - b, True)
 
 
 MISSED = {"qd": _missed, "qdd": _missed}

@@ -97,3 +97,32 @@ def test_the_names_of_forces_in_a_file_are_inputs(tmp_path: Path) -> None:
     hand_in.write_text("".join(f"{line}\n" for line in ["answers:", *(f"  {one}" for one in lines)]))
     found = {answer.name: str(answer.verdict) for answer in dynsolve.check(LINE, hand_in).answers}
     assert (found["tau"], found["lambda"]) == ("correct", "correct")
+
+
+TWICE = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, y: prismatic}
+  bodies: [{mass: m, at: [x, y, 0]}]
+constraints: [x - y, 2*x - 2*y]
+find: [lambda]
+"""
+"""m ẍ = f1 + λ1 + 2 λ2 and m ÿ + m g = f2 - λ1 - 2 λ2 with ẍ = ÿ: λ1 + 2 λ2 = -(f1 - f2 + m g)/2."""
+
+
+@pytest.mark.parametrize(
+    ("entries", "is_right"),
+    [
+        (["-(f1 - f2 + m*g)/2", "0"], True),
+        (["0", "-(f1 - f2 + m*g)/4"], True),
+        (["-(f1 - f2 + m*g)/2 - 2*x", "x"], True),
+        (["-(f1 - f2 + m*g)/2", "-(f1 - f2 + m*g)/4"], False),
+    ],
+)
+def test_of_multipliers_that_are_not_determined_each_that_balances_is_right(
+    entries: list[str], is_right: bool
+) -> None:
+    (found,) = judge(TWICE, {"lambda": [[entry] for entry in entries]}).answers
+    assert found.verdict == ("correct" if is_right else "wrong")
+    told = [] if is_right else ["Your answer does not satisfy D q̈ + C q̇ + g = τ + A_cᵀ λ."]
+    assert [one.message for one in found.diagnosis] == told

@@ -151,9 +151,9 @@ find: [qd]
 @pytest.mark.parametrize(
     ("problem", "entries", "told"),
     [
-        (PRR, ["vz", "-vx/l2", "0"], "ṙ = J_r q̇: see row 2."),
-        (PRR, ["vz", "0", "0"], "ṙ = J_r q̇: see row 1."),
-        (TALL, ["0", "-v/l2"], "J_rᵀ (J_r q̇ - ṙ) = 0: see row 1."),
+        (PRR, ["vz", "-vx/l2", "0"], "ṙ = J_r q̇: in row 2, J_r q̇ is (v_z l₂ - v_x l₃)/l₂ and not v_z."),
+        (PRR, ["vz", "0", "0"], "ṙ = J_r q̇: in row 1, J_r q̇ is 0 and not v_x."),
+        (TALL, ["0", "-v/l2"], "J_rᵀ (J_r q̇ - ṙ) = 0: in row 1, J_rᵀ (J_r q̇ - ṙ) is -v/l₂ and not 0."),
     ],
 )
 def test_of_many_solutions_the_equation_is_told_and_no_slip_against_one(
@@ -162,13 +162,48 @@ def test_of_many_solutions_the_equation_is_told_and_no_slip_against_one(
     """J_r q̇ = (-l₂ q̇₂, q̇₁ + l₃ (q̇₂ + q̇₃)): of what is no entry of the least solution no term is wrong."""
     found = judged(problem, "qd", [[entry] for entry in entries])
     assert [one.message for one in found.diagnosis] == [f"Your answer does not satisfy {told}"]
+    assert not found.entries
+
+
+def test_of_accelerations_the_rate_of_the_jacobian_stands_in_the_equation() -> None:
+    """At q₂ = 90°, q₃ = -90° with q̇₂ = w alone: r̈ = (-l₂ q̈₂ - l₃ w², q̈₁ + l₃ (q̈₂ + q̈₃) - l₂ w²)."""
+    moving = PRR.replace("find: [qd]", "find: [qdd]").replace("velocity: [vx, vz]", "acceleration: [ax, 0]")
+    moving = moving.replace("q3: -90deg}", "q3: -90deg, q1': 0, q2': w, q3': 0}")
+    turn = "(ax + l3*w^2)/l2"
+    right = [f"l2*w^2 + l3*{turn}", f"-{turn}", "0"]
+    assert judged(moving, "qdd", [[entry] for entry in right]).notes == (OF_MANY,)
+    (told,) = judged(moving, "qdd", [[f"l3*{turn}"], [f"-{turn}"], ["0"]]).diagnosis
+    assert told.message.endswith("in row 2, J_r q̈ + J̇_r q̇ is -l₂ w² and not 0.")
+
+
+def test_another_solution_in_rounded_decimals_is_right() -> None:
+    """q̇ = (1, -0.333, 0.333) for (1, -1/3, 1/3); 0.33 is no rounded number, as 0.5 is none."""
+    numbers = PRR.replace("vx, vz", "1, 1").replace("a: l2", "a: 3").replace("a: l3", "a: 1")
+    assert judged(numbers, "qd", [["1"], ["-0.333"], ["0.333"]]).notes == (OF_MANY,)
+    assert judged(numbers, "qd", [["1"], ["-0.333"], ["0.335"]]).verdict == "wrong"
+    (told,) = judged(numbers, "qd", [["1"], ["-0.33"], ["0.33"]]).diagnosis
+    assert told.message.endswith("in row 1, J_r q̇ is 0.99 and not 1.")
+
+
+def test_another_solution_for_a_jacobian_of_ones_own_follows_from_it() -> None:
+    """The sign of l₃ at -90° is wrong; q̇ = (v_z - l₃ v_x/l₂, -v_x/l₂, 0) solves what is written so."""
+    J = [
+        ["0", "-l2*sin(q2) + l3*sin(q2+q3)", "-l3*sin(q2+q3)"],
+        ["1", "l2*cos(q2) - l3*cos(q2+q3)", "l3*cos(q2+q3)"],
+    ]
+    problem = PRR.replace("find: [qd]", "find: [Jr, qd]")
+    own = [["vz - l3*vx/l2"], ["-vx/l2"], ["0"]]
+    found = {one.name: one for one in judge(problem, {"Jr": J, "qd": own}).answers}
+    assert (found["qd"].verdict, found["qd"].follows_from) == ("follows", ("Jr",))
 
 
 def test_a_row_that_is_missed_by_rounding_is_not_told() -> None:
     """-3 q̇₂ = 1 holds but for rounding, and q̇₁ + q̇₂ + q̇₃ = 1 is missed."""
     numbers = PRR.replace("vx, vz", "1, 1").replace("a: l2", "a: 3").replace("a: l3", "a: 1")
     found = judged(numbers, "qd", [["1"], ["-0.333"], ["5"]])
-    assert [one.message for one in found.diagnosis] == ["Your answer does not satisfy ṙ = J_r q̇: see row 2."]
+    assert [one.message for one in found.diagnosis] == [
+        "Your answer does not satisfy ṙ = J_r q̇: in row 2, J_r q̇ is 5.667 and not 1."
+    ]
 
 
 def test_where_one_solution_alone_exists_its_slip_is_told_and_else_the_equation() -> None:
@@ -178,6 +213,7 @@ def test_where_one_solution_alone_exists_its_slip_is_told_and_else_the_equation(
     assert [one.message for one in none.diagnosis][:1] == [
         "Your answer does not satisfy ṙ = J_r q̇: see row 1."
     ]
+    assert [entry.verdict for entry in none.entries] == ["wrong", "correct"]
 
 
 @pytest.mark.parametrize(
