@@ -363,6 +363,8 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
             where.startswith("Summary") and relation.parts[0] in STATE
         ):
             continue
+        if point.passive and _is_of_motion(relation):
+            continue
         count[1] += 1
         letter, *_, value = relation.parts
         if point.passive and (letter == tree.ZERO or _is_from_outside(letter)):  # a row without a drive
@@ -392,6 +394,15 @@ def untrue(blocks: Any, point: Point, evaluated: list[int] | None = None) -> Ite
         for (a, x), (b, y) in pairwise(members):
             if not x.close_to(y):
                 yield Untrue(where, a, b, f"{_plain(x.value)} and {_plain(y.value)}")
+
+
+def _is_of_motion(relation: tree.Relation) -> bool:
+    """Whether it gives 𝐪̈, or balances it with 𝛌: with passive forces that holds in motions alone."""
+    from dynsolve.quantities import letters
+
+    inside = [*walk(*relation.parts)]
+    is_balance = any(isinstance(part, tree.Symbol) and part.dots == 2 for part in inside)
+    return relation.parts[0] == STATE[1] or (is_balance and letters.LAMBDA in inside)
 
 
 def _is_from_outside(node: Node) -> bool:
