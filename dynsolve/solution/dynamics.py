@@ -26,7 +26,6 @@ from dynsolve.explain.forms import Forms
 from dynsolve.explain.signs import report_style
 from dynsolve.explain.step import Step
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem
 from dynsolve.quantities.family import FORMED
 from dynsolve.quantities.index import Quantities, quantities
@@ -82,7 +81,7 @@ def _with_method(robot: Robot, method: Method) -> Robot:
     return replace(robot, questions=replace(robot.questions, method=method))
 
 
-CHECKED = ("J", "D", "C", "g", "friction", "tau", "K", "P")
+CHECKED = ("P", "g", "D", "J", "C", "friction", "tau", "K")
 """The results that are compared with the independent computation, besides the last H."""
 
 Progress = Callable[[int, int], None]
@@ -133,7 +132,8 @@ class Dynamics(Struct, frozen=True, dict=True):
                     "what is read off from the forces differs from what is assembled directly"
                 )
             verify_method(robot, values)
-        verification = verify(robot, _checked(robot, forms), states)
+        compared = {letter: forms(name) for letter, name in _checked(forms).items()}
+        verification = verify(robot, compared, states)
         if problem.normals is not None:
             from dynsolve.derivation.drawn_motion import verify_drawing
 
@@ -286,15 +286,16 @@ def _make_all(forms: Forms, progress: Progress) -> None:
     known = quantities(forms.robot)
     made = [(rule.name, known.of_rule(rule.name)) for rule in course_rules(forms.robot)]
     shown = [name for name, q in made if name != "christoffel" and (q is None or q.family.kind in FORMED)]
+    shown = list(dict.fromkeys([*_checked(forms).values(), *shown]))
     for done, name in enumerate(shown):
         progress(done, len(shown))
         forms(name)
 
 
-def _checked(robot: Robot, forms: Forms) -> dict[str, Node]:
-    names = [name for name in CHECKED if name in forms.values.rules]
-    frame = {"H": forms(f"H{len(robot.joints)}")} if robot.has_table else {}
-    return {**frame, **{name: forms(name) for name in names}}
+def _checked(forms: Forms) -> dict[str, str]:
+    """What is compared, by its letter: the first forms that are made, so that sums are spelled as there."""
+    frame = {"H": f"H{len(forms.robot.joints)}"} if forms.robot.has_table else {}
+    return {**frame, **{name: name for name in CHECKED if name in forms.values.rules}}
 
 
 # The remarks of a problem's author, as notes of the steps that they speak of

@@ -28,7 +28,7 @@ it keeps the shorter result.
    (`terms`), (L₂ c₂ + l_c3 c₂₃)².  What is printed as one factor is an atom
    (`atoms`; `atoms` makes those of a ring); `terms` has the arithmetic.
    `collect` finds what all entries of a matrix share.  A sum that stands in several places has one
-   spelling there (`spelling`).
+   spelling there, in all formulas that a compactor writes (`spelling`).
 
 What comes out is held to its polynomial, and the plain polynomial stands in its place if it is not equal to
 it (`proof`).

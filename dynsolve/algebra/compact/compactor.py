@@ -18,7 +18,7 @@ from operator import mul
 from dynsolve.algebra.compact.atoms import Rank, RingAtoms
 from dynsolve.algebra.compact.collect import SMALLEST_PRODUCT, Collector
 from dynsolve.algebra.compact.proof import Proof, plain_form
-from dynsolve.algebra.compact.spelling import in_one_spelling
+from dynsolve.algebra.compact.spelling import Speller
 from dynsolve.algebra.compact.terms import (
     MASSES,
     RATES,
@@ -116,6 +116,7 @@ class Compactor:
         spelled = [one for one in spelled if has_value(ring, one)]  # not those of another matrix
         self._of_rates = [one for one in spelled if any(getattr(part, "dots", 0) for part in walk(one))]
         self._spelled = [one for one in spelled if one not in self._of_rates]
+        self.in_one_spelling = Speller(self._spelled)
         self._apart = [i for i, part in enumerate(self._atoms.parts) if part in (MASSES, RATES)]
         self._moving = [g.index for g in ring.generators if g.kind in ("sin", "cos") or g.name in ring.names]
         self._given = list(self._moving_sums(frozenset(leading)))
@@ -158,7 +159,7 @@ class Compactor:
                 found = times(number, [*factors, drawn], decimal=self.collector.decimal)
                 (moving if drawn[0] in self._of_rates else still).append(found)
         rest = self._by_rates({} if expr.is_zero else self._terms(expr), moving)
-        return in_one_spelling(total([rest, *still]), self._spelled)
+        return self.in_one_spelling(total([rest, *still]))
 
     def _terms(self, expr: Expr) -> Terms:
         return self._atoms.terms(str(expr.poly))

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.compact.spelling import in_one_spelling
+from dynsolve.algebra.compact.spelling import Speller
 from dynsolve.algebra.compact.trig_forms import ConstantForms, TrigForm, TrigPolynomial, trig_forms
 from dynsolve.algebra.ring import Expr, Ring
 from dynsolve.algebra.ring_values import build_ring, evaluate, value_of
@@ -532,7 +532,7 @@ def test_a_mass_in_numbers_stands_before_the_square_of_a_distance(rows: str, ent
 
 
 def test_the_minus_of_a_sum_that_is_turned_stands_before_its_fraction() -> None:
-    terms = in_one_spelling(read("x*(c - s) + y*(s - c)/2").tree)
+    terms = Speller()(read("x*(c - s) + y*(s - c)/2").tree)
     assert terms == read("x*(c - s) - y*(c - s)/2").tree, "and not + (-y (c - s))/2, which LaTeX would have"
 
 

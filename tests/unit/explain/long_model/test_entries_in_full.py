@@ -161,11 +161,11 @@ def test_the_names_that_a_christoffel_symbol_needs() -> None:
     shown = [to_unicode(formula, style) for line in (found, entries, last) for formula in line.formulas]
     assert shown == [
         "∂σ₈/∂θ₆ = κ₇ c₆ - κ₈ s₆ = σ₁₂",
-        "∂σ₉/∂θ₆ = κ₁₇ s₆² - 4κ₆ s₆ c₆ - κ₁₇ c₆² = -2σ₂₇",
-        "∂σ₁₆/∂θ₆ = s₅ ∂σ₉/∂θ₆ + c₅ ∂σ₈/∂θ₆ = c₅ σ₁₂ - 2s₅ σ₂₇",
-        "∂d₄₅/∂θ₆ = -∂σ₁₆/∂θ₆ = -(c₅ σ₁₂ - 2s₅ σ₂₇)",
+        "∂σ₉/∂θ₆ = κ₁₇ s₆² - 4κ₆ s₆ c₆ - κ₁₇ c₆² = -2σ₂₈",
+        "∂σ₁₆/∂θ₆ = s₅ ∂σ₉/∂θ₆ + c₅ ∂σ₈/∂θ₆ = c₅ σ₁₂ - 2s₅ σ₂₈",
+        "∂d₄₅/∂θ₆ = -∂σ₁₆/∂θ₆ = -(c₅ σ₁₂ - 2s₅ σ₂₈)",
         "∂d₄₆/∂θ₅ = σ₁₂ c₅ - κ₁₆ s₅",
-        "c₄₆₅ = ½ (2s₅ σ₂₇ - c₅ σ₁₂ - σ₁₂ c₅ + κ₁₆ s₅) = s₅ (κ₁₆/2 + σ₂₇) - c₅ σ₁₂ = σ₃₃",
+        "c₄₆₅ = ½ (2s₅ σ₂₈ - c₅ σ₁₂ - σ₁₂ c₅ + κ₁₆ s₅) = -(c₅ σ₁₂ - s₅ (κ₁₆/2 + σ₂₈)) = -σ₃₃",
     ]
     assert to_unicode(found.by[2], style) == "c₆² - s₆² = cos(2θ₆)"
     shown = [to_unicode(formula, style) for formula in again.formulas]
