@@ -95,7 +95,7 @@ def _way(ring: Ring, center: Place, centers: Iterable[Place]) -> tuple[Piece, ..
     """The pieces to a centre in an order in which other centres lie on the way, and slides come first."""
     others = set(centers) - {center}
     vectors = list(_vectors(ring, center))
-    vectors.sort(key=lambda vector: _rank(ring, vector))
+    vectors = sorted(vectors, key=lambda vector: _rank(ring, vector, vectors))
     orders = islice(permutations(vectors), _MOST_ORDERS)
     best = max(orders, key=lambda order: sum(point in others for point in _ways_points(ring, order)))
     points = _ways_points(ring, best)
@@ -125,11 +125,31 @@ def _ways_points(ring: Ring, vectors: Iterable[Place]) -> list[Place]:
     return points
 
 
-def _rank(ring: Ring, vector: Place) -> tuple[bool, int, int]:
-    """Slides before what turns, and what depends on fewer and earlier coordinates before the rest."""
+def _rank(ring: Ring, vector: Place, others: Sequence[Place]) -> tuple[bool, int, int, bool]:
+    """Slides before what turns, what earlier coordinates move before the rest, and what leads back last.
+
+    Of d (cos q, sin q, 0) and -e (cos q, sin q, 0) the second leads back from the end of the first.
+    """
     _, direction = _parted(ring, vector)
     moved = [k for k in range(len(ring.names)) if any(not ring.diff(x, k).is_zero for x in vector)]
-    return any(map(ring.depends_on_coordinates, direction)), len(moved), max(moved, default=-1)
+    own = any(map(ring.depends_on_coordinates, direction)), max(moved, default=-1), len(moved)
+    if _is_forward(direction):
+        return *own, False
+    ahead = [_rank(ring, other, ()) for other in others if _is_opposite(ring, direction, other)]
+    return *max([own, *(rank[:3] for rank in ahead)]), bool(ahead)
+
+
+def _is_forward(direction: Place) -> bool:
+    """Whether the first term of a direction is positive."""
+    return next(x.poly.leading_coefficient() for x in direction if not x.is_zero) > 0
+
+
+def _is_opposite(ring: Ring, direction: Place, other: Place) -> bool:
+    """Whether something lies in the line of a direction, and leads the other way."""
+    _, way = _parted(ring, other)
+    along = ring.dot(direction, way)
+    across = cross(*(Matrix.column(ring, each) for each in (direction, way)))
+    return across.is_zero and along.is_number and along.number < 0
 
 
 # -- pieces ----------------------------------------------------------------------------------------
@@ -454,9 +474,7 @@ def _score(pieces: Sequence[Piece], values: Mapping[str, float], view: View) -> 
     points = _points(pieces, values, view)
     apart = [math.dist(a, b) for a, b in combinations(points.values(), 2)]
     for piece in pieces:
-        same = {piece.start} | {
-            p.end for p in pieces if (p.start, p.direction) == (piece.start, piece.direction)
-        }
+        same = {piece.start} | {p.end for p in pieces if _is_on_line(p, piece)}
         a, b = points[piece.start], points[piece.end]
         apart += [point_to_segment(point, a, b) for place, point in points.items() if place not in same]
     extent = _extent(points)
@@ -464,10 +482,21 @@ def _score(pieces: Sequence[Piece], values: Mapping[str, float], view: View) -> 
     return min(parts) + 0.1 * sum(parts) / len(parts) - _disorder(pieces, points)
 
 
+def _is_on_line(piece: Piece, other: Piece) -> bool:
+    """Whether a piece lies on another from its start, or leads back from its end."""
+    return (piece.start, piece.direction) == (other.start, other.direction) or _leads_back(piece, other)
+
+
+def _leads_back(piece: Piece, other: Piece) -> bool:
+    ring = piece.direction[0].ring
+    return piece.start == other.end and _is_opposite(ring, piece.direction, other.direction)
+
+
 def _disorder(pieces: Sequence[Piece], points: Mapping[Place, Point]) -> int:
     """How many pieces on one line from one point do not follow each other in the order of the file.
 
-    A piece at whose end another begins is the last: a link reaches beyond its mass centre.
+    A piece at whose end another begins is the last: a link reaches beyond its mass centre.  What leads back
+    is shorter than what it leads back on.
     """
     starts = {piece.start for piece in pieces}
     lines: dict[tuple[Place, Place], list[Piece]] = {}
@@ -477,4 +506,8 @@ def _disorder(pieces: Sequence[Piece], points: Mapping[Place, Point]) -> int:
         math.dist(points[a.start], points[a.end]) > math.dist(points[b.start], points[b.end])
         for line in lines.values()
         for a, b in pairwise(line)
+    ) + sum(
+        math.dist(points[a.start], points[a.end]) > math.dist(points[b.start], points[b.end])
+        for a, b in permutations(pieces, 2)
+        if _leads_back(a, b)
     )

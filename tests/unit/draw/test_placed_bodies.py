@@ -134,6 +134,25 @@ def test_the_way_to_a_body_leads_by_another_that_lies_on_it() -> None:
     assert second[: len(first)] == first
 
 
+BOOM = (
+    "model:\n  coordinates: {q1: revolute, d2: prismatic, q3: revolute}\n  bodies:\n"
+    "    - {mass: m1, at: [(d2 - e)*cos(q1), (d2 - e)*sin(q1), 0]}\n"
+    "    - {mass: m2, at: [d2*cos(q1) + l*sin(q3), d2*sin(q1) - l*cos(q3), 0]}\n"
+)
+
+
+def test_pieces_follow_each_other_as_their_coordinates_do_and_a_difference_leads_back() -> None:
+    """The load hangs from the end of the boom d2, from which e leads back to the sleeve."""
+    problem = read_problem(BOOM.encode(), "boom.yaml")
+    d, e, rod = map(problem.robot.ring.symbol, ("d2", "e", "l"))
+    sleeve, hung = ways(problem.robot)
+    assert [piece.length for piece in sleeve] == [d, e]
+    assert [piece.length for piece in hung] == [d, rod]
+    assert sleeve[0] == hung[0]
+    pose = placed_pose(problem)
+    assert 0.0 < pose.values["e"] < pose.values["d2"]
+
+
 def test_a_ball_is_a_point_mass_and_a_box_turns_or_slides() -> None:
     assert BALLS in placed_scene(bodies(SPACE)).caption
     turned = placed_scene(bodies(f"{SPACE}, turn: a, inertia: {{zz: I}}"))
