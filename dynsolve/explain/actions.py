@@ -221,7 +221,7 @@ def friction_steps(context: Context) -> Iterator[Step]:
         title="Friction",
         why=say(
             "Friction has no potential energy. It acts against the motion, so it stands on the side of the "
-            "inertial forces, with the sign of the rate.{viscosity}{beside}",
+            "inertial forces.{viscosity}{beside}",
             viscosity=viscosity,
             beside=beside,
         ),

@@ -211,6 +211,9 @@ def agreement_step(context: Context) -> Step:
     agreed = context.agreement or agreement(context.robot, context.values)
     shown = coriolis_rows(context) if agreed.coriolis else ()
     rows = tuple(Line((), line.formulas, line.uses, ROWS) for line in shown)  # what they are, the text says
+    way = "Read off from the forces and assembled directly"
+    if context.by_energies:
+        way = "From the equations of Lagrange"
     verdicts = (
         (say("$𝐃${where}", where=Reference(("D", "D_sum"), " in ")), agreed.inertia),
         (say("$𝐂 𝐪̇${where}", where=Reference(("Cqd", ROWS if rows else "C"), " in ")), agreed.coriolis),
@@ -229,7 +232,7 @@ def agreement_step(context: Context) -> Step:
         lines=rows,
         concluding=why if rows else (),
         detail=Detail.NORMAL if wrong else Detail.FULL,
-        outcome=say("Read off from the forces and assembled directly: the same {same}.", same=same),
+        outcome=say("{way}: the same {same}.", way=way, same=same),
         uses=("christoffel", "C"),
         is_task=False,
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from operator import itemgetter
 
 from msgspec.structs import replace
 
@@ -64,13 +65,18 @@ def steps(context: Context) -> Iterator[Step]:
 
 
 def table_of(context: Context) -> Table:
-    """The rows of the table as they are written."""
-    robot = context.robot
+    """The rows of the table as they are written, their columns in the order of the convention's motions."""
+    robot, order = context.robot, _COLUMNS[context.robot.convention]
     rows: list[Prose] = [
-        (str(joint.index), *([str(joint.parent)] if robot.is_tree else []), *joint.written)
+        (str(joint.index), *([str(joint.parent)] if robot.is_tree else []), *order(joint.written))
         for joint in robot.joints
     ]
-    return Table((_I, *(["from"] if robot.is_tree else []), *letters.columns(robot, _I)), tuple(rows))
+    header = _I, *(["from"] if robot.is_tree else []), *order(letters.columns(robot, _I))
+    return Table(header, tuple(rows))
+
+
+_COLUMNS = {Convention.STANDARD: itemgetter(0, 1, 2, 3), Convention.MODIFIED: itemgetter(3, 2, 1, 0)}
+"""Spong has θ, d, a, α; Craig α, a, d, θ (figure 3.6)."""
 
 
 def _table(context: Context) -> Step:

@@ -347,10 +347,12 @@ class _Parts(Struct, dict=True):
             if short is not None and is_named and self.detail > Detail.RESULTS:
                 yield from definition_blocks(short, machine(robot))
             number = places[stage] if self.stages is not None else len(self.sections) + 1
-            folds = tuple(shown.of_stage(number, of_stage))
+            told = tuple(of_stage)
+            folds = tuple(shown.of_stage(number, told))
             if folds:  # no heading over a stage of which nothing is shown
                 self.sections[stage] = number
-                yield Heading(f"{number}. {heading_of(stage, robot)}", 2)
+                is_friction = stage is Stage.TORQUE and {step.id for step in told} == {"friction"}
+                yield Heading(f"{number}. {told[0].title if is_friction else heading_of(stage, robot)}", 2)
             yield from folds
 
     def summary(self) -> Iterator[Block]:

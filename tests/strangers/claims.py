@@ -374,7 +374,7 @@ def _does_not_occur(m: Mechanism, s: Sentence) -> bool:
     energy = {"ℒ": "L", "𝒦": "K", "𝒫": "P"}
     symbols = tuple(node for node in s.formulas if isinstance(node, tree.Symbol))
     behind = s.formulas[s.formulas.index(symbols[-1]) + 1 :]  # words before it may hold formulas, too
-    letter = s.words[1][0] if s.words[1][0] in energy else to_unicode(behind[0])
+    letter = s.words[1][0] if s.words[1][0] in energy else to_unicode(behind[0])[0]
     return all(not m.changes(lambda p: m.result(energy[letter], p), (q,)) for q in names_of(symbols))
 
 
@@ -1239,6 +1239,7 @@ Each {} leads one frame further along the arm, so it multiplies from the right.
 Let all parameters be positive[, and the tensors those of bodies][, and {&}].
 {} is symmetric, and may depend on the coordinates, but on no rate.
 Read off[ from the forces] and assembled directly: the same {&}.
+From the equations of Lagrange: the same {&}.
 The tensor along the body's own axes put in:
 By {&}[, and the numbers multiplied]; the second product multiplied out, with the same:
 In the <standard|modified> convention ...

@@ -128,17 +128,18 @@ def _of_momenta(context: Context, free: list[Coordinate]) -> Prose:
     """Which momenta stay constant as long as nothing acts on them, and what these are."""
     acting = [form for q in free if (form := _acting_on(context, q)) != ZERO]
     text = (
-        "{names} does not appear in $ℒ$: a cyclic coordinate. {zeros} Euler-Lagrange equation says that the "
+        "{names} does not appear in {L}: a cyclic coordinate. {zeros} Euler-Lagrange equation says that the "
         "momentum {momenta} is"
     )
     if len(free) > 1:
         text = (
-            "{names} do not appear in $ℒ$: cyclic coordinates. {zeros} Euler-Lagrange equations say that the "
+            "{names} do not appear in {L}: cyclic coordinates. {zeros} Euler-Lagrange equations say that the "
             "momenta {momenta} are"
         )
     return say(
         text,
         names=listed([Symbol(q.name) for q in free]),
+        L=formula("ℒ = 𝒦 - 𝒫") if context.by_energies else letters.L,
         zeros=say("As long as {zeros}, the", zeros=listed([equation(form, ZERO) for form in acting]))
         if acting
         else "The",

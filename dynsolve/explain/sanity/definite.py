@@ -151,17 +151,18 @@ def _step(
     robot, assumed = context.robot, context.robot.questions.model.assumed
     is_of_bodies = all(is_of_a_body(context.values, body) for body in robot.bodies if by_energies)
     bounds = side_by_side([*map(Inequalities(robot).inequality, assumed)])
+    has_parameters = not names_in(context.form("D")).isdisjoint(robot.parameters)
     given, holds = (tensors * (not is_of_bodies) for tensors in _TENSORS)
     given = f"Let all parameters be positive{given}{', and {bounds}' * bool(assumed)}. "
     holds = f" for positive parameters{holds}{' with {bounds}' * bool(assumed)}"
     return Step(
         id="definite",
         title="Check: the inertia matrix is positive definite",
-        why=say(f"{given * bool(robot.parameters)}{{why}}", bounds=bounds, why=why),
+        why=say(f"{given * has_parameters}{{why}}", bounds=bounds, why=why),
         source=spong("7.5.1"),
         lines=lines,
         concluding=concluding,
-        outcome=say(f"$𝐃$ is positive definite{holds * bool(robot.parameters)}.", bounds=bounds),
+        outcome=say(f"$𝐃$ is positive definite{holds * has_parameters}.", bounds=bounds),
         is_task=False,
     )
 

@@ -50,14 +50,17 @@ def inertia_poses_step(context: Context) -> Step | None:
         return None
     names = listed([letters.entry("d", q.index, q.index) for q in shown])
     of_rotors = context.values["Dm"] if context.robot.actions.rotors else None
-    has_rotors = of_rotors is not None and any(not of_rotors[q.index - 1, q.index - 1].is_zero for q in shown)
+    turned = [q for q in shown if of_rotors is not None and not of_rotors[q.index - 1, q.index - 1].is_zero]
     moved = [context.robot.joints_of(q)[0][0] for q in shown]
     robot = context.robot
     after = [robot.number_of(j) for j in robot.joints if j.type and j.index > moved[0].index]
     following = f"joint {after[0]}" if len(after) == 1 else "the joints after it"
     added = "the rotor adds" if len(context.robot.actions.rotors) == 1 else "the rotors add"
-    rotors = f", with what {added}" if has_rotors else ""
-    all_that = "the bodies that" if has_rotors else "all that"
+    rotors = say(f", with what {added}") if turned else ()
+    if 0 < len(turned) < len(shown):
+        to = listed([letters.entry("d", q.index, q.index) for q in turned])
+        rotors = say(f", with what {added} to {{to}}", to=to)
+    all_that = "the bodies that" if turned else "all that"
     one = len(shown) == 1
     numbers = and_joined([str(robot.number_of(joint)) for joint in moved])
     moves = f"joint {numbers} moves" if one else f"joints {numbers} move"
@@ -77,7 +80,7 @@ def inertia_poses_step(context: Context) -> Step | None:
     linear = (context.values[f"Dv{body.name}"] for body in context.robot.bodies)
     is_off_axis = any(not part[q.index - 1, q.index - 1].is_zero for part in linear for q in shown)
     theorem = ": in simple poses the parallel-axis theorem gives the same"
-    theorem += " for the bodies" * has_rotors
+    theorem += " for the bodies" * bool(turned)
     return Step(
         id="inertia_poses",
         title="Check: moments of inertia in simple poses",

@@ -25,6 +25,7 @@ from dynsolve.derivation.newton_euler import (
     outwards,
     plus,
     scaled,
+    times,
     transposed,
 )
 from dynsolve.derivation.verification import TOLERANCE as VERIFICATION_TOLERANCE
@@ -36,6 +37,7 @@ from dynsolve.quantities.index import quantities
 from dynsolve.questions import newton_euler as families
 from dynsolve.questions.held import Held
 from dynsolve.robot.model import Convention, Robot
+from dynsolve.robot.questions import Load
 
 
 def recursion_names(robot: Robot, wanted: frozenset[str]) -> tuple[str, ...]:
@@ -78,6 +80,25 @@ class _Links(Struct, dict=True):
         self._frames = self._lifted if modified else at_rest
         self._about = [joint.index if modified else joint.parent for joint in joints]
         """The frame, for each link, whose origin its moment is about."""
+
+        for load in self.robot.questions.loads:
+            self._take_off(load)
+
+    def _take_off(self, load: Load) -> None:
+        """Every joint on the way to a force from outside holds so much less."""
+        numbers, frame = RobotValues(self.robot, self.values), self._frames[load.link]
+        force, moment = numbers.vector(load.force), numbers.vector(load.moment)
+        if load.axes is not None:
+            turned = times(frame.R, numbers.rotation(load.axes))
+            force, moment = applied(turned, force), applied(turned, moment)
+        if load.by_robot:
+            force, moment = scaled(force, -1.0), scaled(moment, -1.0)
+        at = plus(frame.o, applied(frame.R, numbers.vector(load.position)))
+        link = load.link
+        while link:
+            held, about = self._held[link - 1]
+            self._held[link - 1] = minus(held, force), minus(about, plus(moment, cross(at, force)))
+            link = self.robot.joints[link - 1].parent
 
     def value(self, name: str) -> Vector:
         """A result along the axes of its link's frame."""

@@ -19,7 +19,7 @@ from dynsolve.derivation.graph import Rule
 from dynsolve.questions.newton_euler import recursions
 from dynsolve.questions.newton_euler.recursions import Carried, Motion, Step
 from dynsolve.robot.model import Body, Coordinate, Joint, JointType, Robot
-from dynsolve.robot.questions import Method
+from dynsolve.robot.questions import FOR_EVERY_Q, Method
 
 
 def rules(robot: Robot) -> Iterator[Rule]:
@@ -99,6 +99,7 @@ def _force(robot: Robot, joint: Joint) -> Rule:
             recursions.inertial_force(robot, body, H, a)
             for body, a in zip(bodies, accelerations, strict=True)
         ]
+        own += [-F for _, _, F, _ in recursions.from_outside(robot, i, H)]
         return recursions.force(robot, [(A, f) for A, f in _in_groups(rest, 2)], own)
 
     links = (name for j in after for name in (f"A{j}", f"fl{j}"))
@@ -119,6 +120,7 @@ def _moment(robot: Robot, joint: Joint) -> Rule:
             couple = recursions.inertial_moment(along_link, w, dw)
             own.append((body.center, recursions.inertial_force(robot, body, H, acceleration), couple))
         own += [(none, none, actions.rotor_moment(robot, motor, w, dw)) for motor in rotors]
+        own += [(p, -F, -M) for _, p, F, M in recursions.from_outside(robot, i, H)]
         carried = [Carried(*values) for values in _in_groups(rest, 3)]
         return recursions.moment(robot, recursions.start_of_moments(robot, A), carried, own)
 
@@ -130,12 +132,13 @@ def _moment(robot: Robot, joint: Joint) -> Rule:
 def torque_rule(robot: Robot, q: Coordinate) -> Rule:
     """τ_k, by the joints that coordinate k moves: nᵀ z of one that turns, fᵀ z of one that slides.
 
-    The motors that turn q_k also drive their rotors, through their gears, and friction and springs add
-    what they resist with.
+    The motors that turn q_k also drive their rotors, through their gears, friction and springs add what they
+    resist with, and what acts from outside its Q_k: f and n are less by it.
     """
     moved, k = robot.joints_of(q), q.index - 1
     motors = [motor for motor in robot.actions.rotors if motor.turns == k]
-    beside = [name for name in ("Ps", "friction") if name in robot.actions.terms]
+    beside: list[str] = [name for name in ("Ps", "friction") if name in robot.actions.terms]
+    beside += [FOR_EVERY_Q] if robot.questions.loads else []
 
     def compute(*values: Any) -> Expr:
         held, rest = values[: 2 * len(moved)], list(values[2 * len(moved) :])

@@ -28,6 +28,7 @@ from dynsolve.explain.torque import how_collected
 from dynsolve.explain.writing import is_small, listed, side_by_side, sum_of, turns
 from dynsolve.notation.template import formula
 from dynsolve.notation.tree import (
+    Cross,
     Letter,
     Negative,
     Node,
@@ -35,6 +36,7 @@ from dynsolve.notation.tree import (
     Parenthesized,
     Product,
     Row,
+    Sum,
     Symbol,
     Transpose,
     Words,
@@ -54,10 +56,11 @@ from dynsolve.questions.newton_euler.terms import (
     inertial_force,
     moment_of_body,
     moment_of_next,
+    outside_names,
 )
 from dynsolve.robot import units
 from dynsolve.robot.model import Body, Coordinate, Joint, JointType
-from dynsolve.robot.questions import Method
+from dynsolve.robot.questions import FOR_EVERY_Q, Method
 
 LETTERS = """
 * 𝐳_{turning}^i | axis of joint i, in frame i
@@ -67,6 +70,8 @@ LETTERS = """
 * 𝐚_i^i: origin of frame i; 𝐚_ci^i: mass centre of body i | : its acceleration, in frame i | m/s^2
 * 𝐈_ci^i | inertia tensor of body i about its mass centre, in frame i | kg m^2
 * 𝐟_i^i: force; 𝐧_i^i: moment | with which link i-1 holds link i, in frame i
+* 𝐅_j^i: force; 𝐌_j^i: moment | number j from outside on link i, in frame i
+* 𝐫_Fj^i | point of force j from outside | m
 """
 """The lines of its letters in the list of notation."""
 
@@ -170,6 +175,16 @@ def _known(context: Context, joint: Joint) -> Iterator[Node]:
         yield equation(names("{rc}"), context.show(center))
         if not body.is_point:
             yield equation(names("{I}"), context.show(_tensor(context, body)))
+    start = recursions.start_of_moments(robot, A)
+    for place, at, force, moment in _from_outside(context, joint.index):
+        for name, value in zip(outside_names(link, place), (start + at, force, moment), strict=True):
+            if not value.is_zero:
+                yield equation(name, context.show(value))
+
+
+def _from_outside(context: Context, link: int) -> list[tuple[int, Matrix, Matrix, Matrix]]:
+    """The forces from outside on a link: number, point, force and moment along its axes."""
+    return recursions.from_outside(context.robot, link, context.values[f"H{link}"])
 
 
 def _is_heavy(context: Context) -> bool:
@@ -358,14 +373,13 @@ def _force_why(context: Context, i: int) -> str:
     """Newton's law for the mass of a link; what the links after it need."""
     follows = context.robot.links_after(i)
     after = "the next link needs" if len(follows) == 1 else "the links after it need"
+    outside = ", less the force from outside" * bool(_from_outside(context, i))
     if not context.robot.bodies_on(i):
-        return f"The link has no mass: it passes on what {after}." if follows else "The link has no mass."
+        passed = f": it passes on what {after}" if follows else ""
+        return f"The link has no mass{passed}{outside}."
     own = " beside its weight" if _is_heavy(context) else ""
     rest = f", and what {after}." if follows else ". No link follows, so nothing is passed on."
-    outside = " What acts from outside is left out here: it follows as $𝐐$." * bool(
-        context.robot.questions.loads
-    )
-    return f"Newton's law: what the mass needs{own}{rest}{outside * (not follows)}"
+    return f"Newton's law: what the mass needs{own}{outside}{rest}"
 
 
 def _inertial(context: Context, body: Body) -> tuple[Node, Matrix]:
@@ -384,6 +398,8 @@ def _forces(context: Context, i: int) -> Iterator[Part]:
         yield Names.of(robot, j)("{R} 𝐟_{i}^{i}"), rotation(values[f"A{j}"]) @ values[f"fl{j}"]
     for body in robot.bodies_on(i):
         yield _inertial(context, body)
+    for place, _, force, _ in _from_outside(context, i):
+        yield Negative(outside_names(Names.of(robot, i), place)[1]), -force
 
 
 def _moments(context: Context, i: int) -> Iterator[Part]:
@@ -403,6 +419,12 @@ def _moments(context: Context, i: int) -> Iterator[Part]:
             found += [tensor @ dw, cross(w, tensor @ w)]
         yield from zip(moment_of_body(Names.of(robot, i, body), name, body.is_point), found, strict=True)
     yield from _rotor_moments(context, i)
+    for place, at, force, moment in _from_outside(context, i):
+        lever, named, couple = outside_names(Names.of(robot, i), place)
+        if not force.is_zero:
+            yield Negative(Cross(lever, named)), -cross(start + at, force)
+        if not moment.is_zero:
+            yield Negative(couple), -moment
 
 
 def _rotor_moments(context: Context, link: int) -> Iterator[tuple[Node, Matrix]]:
@@ -437,20 +459,36 @@ def _ends(context: Context) -> Iterator[Step]:
                 "what drives it. The result is that of the Euler-Lagrange equations.",
             ),
             source=context.by_convention("7.6", "6.5"),
-            result=tuple(form for q in told if (form := _torque(context, q).formula) is not None),
+            result=tuple(_driven(context, q) for q in told),
             listed=True,
             uses=tuple(f"tau{q.index}" for q in told),
             is_task=False,
         )
 
 
-def _torque(context: Context, q: Coordinate) -> Step:
+def _along_axes(context: Context, q: Coordinate) -> list[Node]:
+    """nᵀ z or fᵀ z of each joint that a coordinate moves."""
     terms: list[Node] = []
-    joints = context.robot.joints_of(q)
-    for joint, rate in joints:
+    for joint, rate in context.robot.joints_of(q):
         held = letters.in_link("n" if joint.type is JointType.REVOLUTE else "f", joint.index)
         axis = Names.of(context.robot, joint.index)("{z}")
         terms.append(_rated(rate, Product((Transpose(held), axis))))
+    return terms
+
+
+def _driven(context: Context, q: Coordinate) -> Node:
+    """τ_k = nᵀ z, without what acts from outside: f and n are less by it."""
+    row = driving_row(context.robot, q)
+    outside = letters.entry("Q", q.index)
+    driving = [term for term in (row.terms if isinstance(row, Sum) else (row,)) if term != outside]
+    _, added = _beside_held(context, q)
+    return equation(
+        sum_of(driving), sum_of([*_along_axes(context, q), *(one for one in added if one != outside)])
+    )
+
+
+def _torque(context: Context, q: Coordinate) -> Step:
+    terms, joints = _along_axes(context, q), context.robot.joints_of(q)
     is_passive = q.index - 1 in context.robot.actions.passive
     kind, what = ("torque", "moment") if turns(q) else ("force", "force")
     beside, added = _beside_held(context, q)
@@ -491,6 +529,9 @@ def _beside_held(context: Context, q: Coordinate) -> tuple[Prose, list[Node]]:
     if context.has_friction(k):
         why += " Friction is overcome."
         terms.append(letters.friction(q.index))
+    if robot.questions.loads and not context.values[FOR_EVERY_Q][k, 0].is_zero:
+        why += " What acts from outside is on the left side, too."
+        terms.append(letters.entry("Q", q.index))
     return (why,) if why else (), terms
 
 
@@ -502,7 +543,7 @@ def _what_drives(context: Context, q: Coordinate, what: str) -> Prose:
         return say("No motor drives {q}: {zero}.", q=Symbol(q.name), zero=zero)
     if len(context.robot.joints_of(q)) > 1:
         return (Symbol(q.name), f" moves several joints: of each the {what} along its axis counts.")
-    rest = "" if questions.loads or questions.constraints else "; the bearings hold the rest"
+    rest = "" if questions.constraints else "; the bearings hold the rest"
     return (f"Along the axis of the joint the {what} is what drives it{rest}.",)
 
 

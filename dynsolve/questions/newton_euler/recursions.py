@@ -20,6 +20,7 @@ from dynsolve.algebra.ring import Expr
 from dynsolve.derivation import link_frame
 from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.derivation.link_frame import accelerations, velocities
+from dynsolve.questions.statics.derive import wrench
 from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
 
 
@@ -153,11 +154,26 @@ def inertial_moment(tensor: Matrix, w: Matrix, dw: Matrix) -> Matrix:
 
 
 def force(robot: Robot, carried: Sequence[tuple[Matrix, Matrix]], own: Sequence[Matrix]) -> Matrix:
-    """f_i = Σ R_{i+1}^i f_{i+1} + Σ m (a_c - g_0): what the link before holds link i with.
+    """f_i = Σ R_{i+1}^i f_{i+1} + Σ m (a_c - g_0) - Σ F: what the link before holds link i with.
 
-    `carried` are (A_{i+1}, f_{i+1}) of the links that follow, `own` the forces of the link's bodies.
+    `carried` are (A_{i+1}, f_{i+1}) of the links that follow, `own` the forces of the link's bodies, and -F
+    of what acts from outside.
     """
     return total((*(rotation(A) @ f for A, f in carried), *own), robot)
+
+
+def from_outside(robot: Robot, link: int, H: Matrix) -> list[tuple[int, Matrix, Matrix, Matrix]]:
+    """(its number, p, F, M) of each force that acts on a link from outside, 3×1 along the axes of frame i.
+
+    p is its point, from o_i.  The link before holds the link with so much less: f_i has -F, n_i -M - p × F.
+    """
+    back = rotation(H).T
+    found = []
+    for number, load in enumerate(robot.questions.loads, 1):
+        if load.link == link:
+            force, moment = wrench(load, H)
+            found.append((number, load.position, back @ force, back @ moment))
+    return found
 
 
 class Carried(Struct, frozen=True):
@@ -178,7 +194,7 @@ def moment(
 
     n_i = Σ (R n_{i+1} + l × R f_{i+1}) + Σ (N + (s + r_c) × F).  s = `start` leads from the point of n_i
     to o_i; l to the point of n_{i+1}: this is o_i in the standard convention, else o_{i+1}.  `own` are
-    (r_c, F, N) of the link's bodies.
+    (r_c, F, N) of the link's bodies, and (p, -F, -M) of what acts from outside.
     """
     found = Matrix.zero(robot.ring, 3, 1)
     for link in carried:

@@ -66,6 +66,16 @@ class Names(Struct, frozen=True):
         return formula(text, i=i, **{**own, **values})
 
 
+def outside_names(link: Names, number: int) -> tuple[Node, Node, Node]:
+    """The point of a force from outside, from the point of n_i; the force, and its moment; in frame i."""
+    place = Row((Words("F"), Number(number)))
+    return (
+        letters.bold("r", place, link.i),
+        letters.bold("F", Number(number), link.i),
+        letters.bold("M", Number(number), link.i),
+    )
+
+
 PARENT, CHILD = Symbol("p"), Symbol("k")
 """The frame from which the row of link i starts, and a link that follows it, in a tree."""
 
