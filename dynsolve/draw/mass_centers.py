@@ -127,8 +127,8 @@ def _is_from_near(body: Body) -> bool:
     return re.match(r"\W*(near|along)\b", body.center_written) is not None
 
 
-def _number(robot: Robot, numbers: RobotNumbers, body: Body) -> float | None:
-    """The distance that is given as a number, along one axis of the link, from its near end or its origin."""
+def _number(robot: Robot, numbers: RobotNumbers, body: Body) -> Expr | None:
+    """The exact distance given as a number, along one axis of the link, from its near end or its origin."""
     center = body.center.entries
     if _is_from_near(body) and robot.convention is Convention.STANDARD:
         row, ring = robot.joints[body.link - 1], robot.ring
@@ -136,7 +136,8 @@ def _number(robot: Robot, numbers: RobotNumbers, body: Body) -> float | None:
         center = tuple(entry + way for entry, way in zip(center, to_near, strict=True))
     if symbols_of(robot, center):
         return None
-    along = [size for entry in center if (size := abs(finite(entry, numbers.values))) > NEAR]
+    sizes = [(entry, finite(entry, numbers.values)) for entry in center]
+    along = [entry if size > 0 else -entry for entry, size in sizes if abs(size) > NEAR]
     return along[0] if len(along) == 1 else None
 
 
@@ -164,7 +165,7 @@ def _mass(
     place = in_space(center)
     steps = tuple(replace(step, start=in_space(step.start), end=in_space(step.end)) for step in local)
     if not free and (number := _number(robot, numbers, body)):
-        steps = (Step(near if _is_from_near(body) else frame.origin, place, number),)
+        steps = (Step(near if _is_from_near(body) else frame.origin, place, number=number),)
     return MassCenter(body.name, place, body.is_point, body.link, steps, chosen)
 
 

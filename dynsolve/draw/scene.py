@@ -15,6 +15,7 @@ from fractions import Fraction
 from msgspec import Struct
 from msgspec.structs import astuple
 
+from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.derivation.rules import derive
 from dynsolve.draw import paths, poses
 from dynsolve.draw.closings import NOT_HELD, Closings, closings, in_walls
@@ -156,8 +157,6 @@ _GRAVITY_ROOM, _WORLD_ROOM = Box(-26.0, -18.0, 36.0, 64.0), Box(-60.0, -60.0, 60
 """The room around the beginning of the arrow of gravity, and around the axes of the world."""
 
 MARGIN = 14.0
-_FINEST = 10**6
-"""The denominator up to which a number of the file is found from its value."""
 
 CAPTION = "The manipulator with its frames; not to scale. 𝐱ᵢ and 𝐳ᵢ begin at the origin 𝐨ᵢ, and 𝐲ᵢ = 𝐳ᵢ × 𝐱ᵢ."
 WITHOUT_FRAMES = "The manipulator; not to scale."
@@ -235,7 +234,7 @@ def scene(problem: Problem, star: bool = True, frames: bool = True) -> Scene:
     if given and not frames:  # what the table has in the place of the letters is sought
         lengths = [each for each in lengths if each.varies or isinstance(each.node, Symbol)]
     lengths += given
-    dimensions([*lengths, *_center_lengths(pose)], pose, notes)
+    dimensions([*lengths, *_center_lengths(robot, pose)], pose, notes)
     if is_aside(robot, values, problem.normals is not None):
         beside = _free_place([*under, *body], notes, _WORLD_ROOM)
         poses.world_axes(beside, Words("w"), pose.view, _ASIDE, notes)
@@ -308,7 +307,7 @@ def _caption(
 
 
 def _is_number(label: Label) -> bool:
-    return not set("".join(run.text for run in label.line.runs)) - set("0123456789.")
+    return not set("".join(run.text for run in label.line.runs)) - set("0123456789./√")
 
 
 def _parallel(found: Sequence[tuple[str, int] | None]) -> str:
@@ -327,14 +326,13 @@ def _parallel(found: Sequence[tuple[str, int] | None]) -> str:
     return f"The dashed grey {'line is' if len(found) == 1 else 'lines are'} parallel to {named}."
 
 
-def _center_lengths(pose: Pose) -> list[Length]:
+def _center_lengths(robot: Robot, pose: Pose) -> list[Length]:
     """The distances that lead to mass centres, each a number, one symbol, or a simple part of one."""
-    found = []
+    found, write = [], Compactor(robot.ring).form
     for step in (step for mass in pose.skeleton.masses for step in mass.steps):
-        rate = Fraction(step.rate).limit_denominator(12 if step.symbol else _FINEST)
-        if abs(rate - step.rate) < NEAR:
-            number = Number(rate.numerator, rate.denominator)
-            node = _part(Symbol(step.symbol), rate) if step.symbol else number
+        rate = Fraction(step.rate).limit_denominator(12)
+        if step.number is not None or abs(rate - step.rate) < NEAR:
+            node = _part(Symbol(step.symbol), rate) if step.number is None else write(step.number)
             found.append(Length(step.start, step.end, node, optional=True))
     return found
 

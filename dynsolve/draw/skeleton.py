@@ -299,12 +299,13 @@ class Leg(Struct, frozen=True):
 
 
 class Step(Struct, frozen=True):
-    """A straight way from one point to another: `rate` times a symbol, or the number itself without one."""
+    """A straight way from one point to another: `rate` times a symbol, or an exact number."""
 
     start: Vector
     end: Vector
-    rate: float
+    rate: float = 0.0
     symbol: str = ""
+    number: Expr | None = None
 
 
 class MassCenter(Struct, frozen=True):

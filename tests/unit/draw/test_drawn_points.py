@@ -86,3 +86,14 @@ def test_a_sheet_that_asks_for_the_table_shows_the_given_letters_in_its_place() 
     assert sorted(names(sheet, "length")) == ["b", "h", "l"] and SAME not in sheet.caption
     leaning = scene(read_problem(LEANING.encode(), "drawing.yaml"), frames=False)
     assert WORLD in leaning.caption and ASIDE not in leaning.caption
+
+
+def test_a_mass_centre_at_an_irrational_distance_has_its_root() -> None:
+    bent = (
+        SLANTED.replace("30deg", "45deg")
+        .replace("[b, 0, c]", "[0.3, 0, 0.3]")
+        .replace("b + l, 0, c", "0.5, 0, 0.3")
+    )
+    masses = "masses:\n  - {mass: 2, link: 2, center: {drawn: [0.1, 0, 0.1]}}\n  - {mass: 1, link: 3}\n"
+    picture = scene(read_problem(f"{bent}{masses}".encode(), "drawing.yaml"))
+    assert [name for name in names(picture, "length") if "√" in name] == ["√2/5"]
