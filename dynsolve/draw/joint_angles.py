@@ -2,8 +2,8 @@
 
 Where the table adds degrees to a coordinate, its arrow ends that much before the x axis, and the rest is
 drawn beyond it.  An angle stands about the origin on its axis; dashed lines show the directions that nothing
-else shows there.  A robot with many rows has no room for that: an arrow around each axis shows the sense
-of its angle.
+else shows there.  A negative angle q is drawn as -q the other way.  A robot with many rows has no room for
+that: an arrow around each axis shows the sense of its angle.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from dynsolve.draw import paths
 from dynsolve.draw.parts import RADIUS, JointBody
 from dynsolve.draw.paths import Path
 from dynsolve.draw.poses import ARC, MANY, Notes, Pose
-from dynsolve.draw.skeleton import Leg, turned_alone, unsigned
+from dynsolve.draw.skeleton import Leg, opposite, turned_alone, unsigned
 from dynsolve.draw.vectors import (
     NEAR,
     Point,
@@ -135,8 +135,8 @@ def has_rings(pose: Pose) -> bool:
 def _has_ring(pose: Pose, leg: Leg) -> bool:
     """Whether there is no room for an angle in space, or it is too small to be seen."""
     if pose.view.flat:
-        return leg.turn < _NO_ARC
-    return len(pose.skeleton.legs) > MANY or leg.turn < _SMALL
+        return abs(leg.drawn) < _NO_ARC
+    return len(pose.skeleton.legs) > MANY or abs(leg.drawn) < _SMALL
 
 
 def _center(pose: Pose, part: JointBody, leg: Leg) -> Vector:
@@ -156,6 +156,11 @@ def _unseen(leg: Leg, center: Vector, pose: Pose) -> Iterator[Vector]:
     return (direction for direction in directions if all(dot(direction, way) < _ALIKE for way in seen))
 
 
+def _shown(leg: Leg, name: Node) -> Node:
+    """What the arrow of an angle shows: -q of a negative one, which is drawn in its own sense."""
+    return name if leg.drawn > 0 else opposite(name)
+
+
 # -- in a plane ------------------------------------------------------------------------------------
 
 
@@ -164,7 +169,7 @@ def _flat_angle(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes)
     view = pose.view
     center = view.point(leg.center)
     first = view.direction(leg.before)
-    angle = leg.turn if dot(leg.turned_about, view.toward) > 0 else -leg.turn
+    angle = leg.drawn if dot(leg.turned_about, view.toward) > 0 else -leg.drawn
     second = (first[1], -first[0])
     for direction in _unseen(leg, leg.center, pose):
         end = moved(center, view.direction(direction), _ARC + _BEYOND)
@@ -180,7 +185,7 @@ def _flat_angle(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes)
         Path(paths.arc(center, p, q, 0.0, short), paths.VARIABLE, 1.4), _head(center, p, q, angle, short)
     )
     middle = [paths.on_ellipse(center, p, q, angle * part_of) for part_of in _PARTS[:3]]
-    notes.label(node, middle, from_to(center, middle[0]), paths.VARIABLE, "variable")
+    notes.label(_shown(leg, node), middle, from_to(center, middle[0]), paths.VARIABLE, "variable")
 
 
 def _offset(center: Vector, leg: Leg, pose: Pose, notes: Notes) -> None:
@@ -224,7 +229,7 @@ def _angle_in_space(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: No
     """θ_i around the joint's axis; what lies behind its middle is drawn before the joint."""
     view, middle = pose.view, _center(pose, part, leg)
     center = view.point(middle)
-    side = cross(leg.turned_about, leg.before)
+    side = scale(cross(leg.turned_about, leg.before), math.copysign(1.0, leg.drawn))
     reach = ARC + _BEYOND + (_PAST * bool(leg.offset))
     for direction in _unseen(leg, middle, pose):
         tip = view.point(along(middle, direction, view.space(reach)))
@@ -232,7 +237,7 @@ def _angle_in_space(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: No
         notes.draw(line, behind=dot(direction, view.toward) < 0)
     _offset(middle, leg, pose, notes)
     p, q = scaled(view.direction(leg.before), ARC), scaled(view.direction(side), ARC)
-    angle = leg.turn
+    angle = abs(leg.drawn)
     short = angle - min(0.25, angle / 2)
     for start, end, behind in _seen(leg.before, side, view.toward, short):
         if not behind:  # the white edge leaves the axis whole at which the arc begins
@@ -242,7 +247,7 @@ def _angle_in_space(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: No
     notes.draw(_head(center, p, q, angle, short), behind=_depth(leg.before, side, view.toward, angle) < 0)
     places = sorted(_PARTS, key=lambda part_of: _depth(leg.before, side, view.toward, angle * part_of) < 0)
     anchors = [paths.on_ellipse(center, p, q, angle * part_of) for part_of in places]
-    notes.label(node, anchors, from_to(center, anchors[0]), paths.VARIABLE, "variable")
+    notes.label(_shown(leg, node), anchors, from_to(center, anchors[0]), paths.VARIABLE, "variable")
 
 
 def _depth(first: Vector, second: Vector, toward: Vector, t: float) -> float:

@@ -252,6 +252,10 @@ class DrawnFrame(Struct, frozen=True):
         return self.axes[2]
 
 
+_WIDEST = math.radians(225) + NEAR
+"""A wider angle is drawn as a negative one."""
+
+
 class Leg(Struct, frozen=True):
     """A row of the table in space.
 
@@ -278,6 +282,11 @@ class Leg(Struct, frozen=True):
         """θ without the offset, within one positive turn about `turned_about`."""
         angle = self.angle - self.offset
         return (-angle if self.backwards else angle) % (2 * math.pi)
+
+    @property
+    def drawn(self) -> float:
+        """θ without the offset as it is drawn about `turned_about`: beyond -135° up to 225°."""
+        return self.turn if self.turn < _WIDEST else self.turn - 2 * math.pi
 
     @property
     def turned_about(self) -> Vector:

@@ -23,6 +23,7 @@ from dynsolve.problem import load, read_problem
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType
 from tests.support import LIBRARY
+from tests.unit.draw.pictures import names
 
 HEAD = 9.0
 """The length of the head of an axis."""
@@ -226,3 +227,13 @@ def test_an_angle_that_is_zero_as_it_is_drawn_is_shown_by_its_sense() -> None:
         turns.append(sum(math.remainder(b - a, 2 * math.pi) for a, b in pairwise(steps)))
     assert [turn > 0 for turn in turns] == [True, False]
     assert min(map(abs, turns)) > math.pi / 2 and RINGS in picture.caption
+
+
+@pytest.mark.parametrize(("tip", "name"), [("[1, 0, 0.5]", "-q₂"), ("[1, 0, 1.5]", "q₂")])
+def test_a_negative_angle_is_drawn_in_its_own_sense(tip: str, name: str) -> None:
+    """Of a drawing, whose pose is given: from x₁ to x₂."""
+    turns = (
+        "{turn: q1, about: [0, 0, 1], through: [0, 0, 0]}, {turn: q2, about: [0, -1, 0], through: [0, 0, 1]}"
+    )
+    problem = read_problem(f"axes: [{turns}]\ntip: {tip}\nzero: table\n".encode(), "elbow.yaml")
+    assert name in names(scene(problem, star=False), "variable")

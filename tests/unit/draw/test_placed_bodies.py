@@ -385,7 +385,8 @@ def test_branches_share_the_length_that_they_begin_with() -> None:
 
 def test_a_length_on_the_other_side_has_its_terms_without_their_sign() -> None:
     rows = "dh: [{theta: q1*, alpha: 90deg}, {d: w* + b}, {from: 1, d: -w* - b}, {from: 1, d: b - 3*w*}]"
-    assert sorted(names(drawn_text(rows), "variable")) == ["3w⋆ - b", "q₁⋆", "w⋆ + b", "w⋆ + b"]
+    lengths = [name for name in names(drawn_text(rows), "variable") if "w" in name]
+    assert sorted(lengths) == ["3w⋆ - b", "w⋆ + b", "w⋆ + b"]
 
 
 PLANE = "dh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]"
