@@ -38,6 +38,7 @@ from dynsolve.draw.vectors import (
     distance,
     dot,
     from_to,
+    length,
     moved,
     point_to_segment,
     scale,
@@ -95,6 +96,7 @@ def cost_of(pose: Pose, orientation: Orientation) -> float:
         + 30.0 * _crossings(ways, view)
         + 10.0 * on_links
         + _foreshortening(pose)
+        + 10.0 * sum(_parallel_looking(*pair, view) for pair in _axes_to_tell_apart(pose, orientation))
         + _lowness(pose.skeleton, orientation)
     )
 
@@ -165,6 +167,25 @@ def _foreshortening(pose: Pose) -> float:
         seen = math.dist(view.point(a), view.point(b)) / (distance(a, b) * view.size)
         total += 8.0 * _shortfall(seen, 0.7)
     return total
+
+
+def _axes_to_tell_apart(pose: Pose, orientation: Orientation) -> Iterator[tuple[Vector, Vector]]:
+    """In space the upright and the axes of the first joint and of slides; slides in turn."""
+    if pose.view.flat:
+        return
+    slides = [leg for leg in pose.skeleton.legs if leg.type is JointType.PRISMATIC]
+    yield from ((orientation.up, leg.axis) for leg in dict.fromkeys([*pose.skeleton.legs[:1], *slides]))
+    yield from ((first.axis, second.axis) for first, second in pairwise(slides))
+
+
+def _parallel_looking(first: Vector, second: Vector, view: View) -> float:
+    """1 where directions that are not parallel look so on paper, 0 from two fifths of their angle."""
+    across, seen = cross(first, second), [view.direction(each) for each in (first, second)]
+    angle = math.atan2(length(across), abs(dot(first, second)))
+    if angle < NEAR or min(math.hypot(*each) for each in seen) < NEAR:
+        return 0.0
+    (a, b), (c, d) = seen
+    return _shortfall(math.atan2(abs(a * d - b * c), abs(a * c + b * d)), 0.4 * angle)
 
 
 def _lowness(body: Skeleton, orientation: Orientation) -> float:

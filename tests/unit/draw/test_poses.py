@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import pytest
 
@@ -15,7 +16,7 @@ from dynsolve.draw.pose_search import best_pose, closing_links, last_links
 from dynsolve.draw.poses import Notes, Pose
 from dynsolve.draw.scene import OFF_LINKS, allowed_pose, scene
 from dynsolve.draw.skeleton import generic_numbers, numbers, orientation, skeleton
-from dynsolve.draw.vectors import ORIGIN, Vector, distance, dot, facing, subtract
+from dynsolve.draw.vectors import NEAR, ORIGIN, Vector, cross, distance, dot, facing, length, subtract
 from dynsolve.notation.printing import Style
 from dynsolve.problem import load, read_problem
 from dynsolve.robot.model import Robot
@@ -282,3 +283,26 @@ def test_moves_lead_from_the_world_to_frame_0() -> None:
     assert along_z.end == pytest.approx(ORIGIN) and along_z.start == along_x.end
     assert subtract(along_x.end, along_x.start)[0] > 0.0
     assert dot(subtract(along_z.end, along_z.start), (0.0, 0.0, 1.0)) < 0.0
+
+
+# -- what stands at an angle in space is seen to do so ------------------------------------------------
+
+THREE_SLIDES = "dh: [{d: d1*, alpha: 90deg}, {d: d2*, alpha: 45deg, theta: 90deg}, {d: d3*}]"
+CARRIAGE = (
+    "convention: modified\ndh: [{alpha: 90deg, d: x*}, {theta: q2*, a: l1}, {theta: q3*, a: l2}, {a: l3}]"
+)
+GATE = "base: Rx(60deg)\ndh: [{theta: q1*, a: w}, {theta: q2*, alpha: 90deg}, {theta: q3*, a: l}]"
+
+
+@pytest.mark.parametrize(("text", "least"), [(THREE_SLIDES, 35), (CARRIAGE, 35), (GATE, 23)])
+def test_axes_at_an_angle_do_not_look_parallel(text: str, least: float) -> None:
+    """The first slide does not seem to run upwards, nor an axis that leans by 60° by 8°."""
+    problem = read_problem(text.encode(), "own.yaml")
+    known = numbers(problem)
+    world = orientation(problem.robot, known)
+    pose = best_pose(problem.robot, known, world)
+    axes = [world.up, *(frame.z for frame in pose.skeleton.frames)]
+    for a, b in pairwise(axes):
+        if length(cross(a, b)) > NEAR:
+            (x, y), (u, v) = (pose.view.direction(each) for each in (a, b))
+            assert math.degrees(math.atan2(abs(x * v - y * u), abs(x * u + y * v))) > least
