@@ -24,7 +24,16 @@ from dynsolve.draw.labels import Box, Label, Taken, place, written
 from dynsolve.draw.lengths import tilt
 from dynsolve.draw.paths import Path, typeset
 from dynsolve.draw.placed_pose import Kind, Piece, Place, PlacedPose, Turning, placed_pose
-from dynsolve.draw.poses import DAMPERS, Notes, draw_damper, draw_spring, spiral, world_axes, zigzag
+from dynsolve.draw.poses import (
+    DAMPERS,
+    Notes,
+    draw_damper,
+    draw_spring,
+    draw_turned_damper,
+    spiral,
+    world_axes,
+    zigzag,
+)
 from dynsolve.draw.scene import PLAIN, Scene, framed, gravity_arrow, leads
 from dynsolve.draw.skeleton import finite
 from dynsolve.draw.solids import BODY, block, half_axes
@@ -383,7 +392,7 @@ SPRINGS = "A zigzag or a spiral is a spring."
 OTHER_SPRINGS = (
     "Springs on other than an angle or the distance of two points, or given by their energy, are not drawn."
 )
-OTHER_DAMPERS = "Dampers on other than the distance of two points are not drawn."
+OTHER_DAMPERS = "Dampers on other than an angle or the distance of two points are not drawn."
 
 _BESIDE = (0.0, 20.0, -20.0, 40.0, -40.0)
 
@@ -397,10 +406,12 @@ def _springs(pose: PlacedPose, turning: Sequence[Turning], notes: Notes) -> list
         drawn = along is not None and _draw(along[0], form(along[1]), pose, turning, notes)
         said.append(SPRINGS if drawn else OTHER_SPRINGS)
     for of, damping in (act.along for act in actions.resisting if act.along):
-        ends = _ends(of, pose)
+        ends, about = _ends(of, pose), _turned_by(of, pose, turning)
         if ends is not None:
             draw_damper(*_apart(*ends, pose, notes), form(damping), notes)
-        said.append(DAMPERS if ends else OTHER_DAMPERS)
+        elif about is not None:
+            draw_turned_damper(*about, pose.view, 1.8 * _HALF, form(damping), notes)
+        said.append(DAMPERS if ends or about else OTHER_DAMPERS)
     return list(dict.fromkeys(said))
 
 
@@ -410,15 +421,21 @@ def _draw(of: Expr, name: Node, pose: PlacedPose, turning: Sequence[Turning], no
     if ends is not None:
         draw_spring(zigzag(*_apart(*ends, pose, notes)), name, notes, behind=True)
         return True
+    about = _turned_by(of, pose, turning)
+    if about is not None:
+        draw_spring(spiral(*about, pose.view, 1.5 * _HALF), name, notes)
+    return about is not None
+
+
+def _turned_by(of: Expr, pose: PlacedPose, turning: Sequence[Turning]) -> tuple[Vector, Vector] | None:
+    """The vertex of an angle and the axis about which it turns."""
     ring = pose.robot.ring
     for turned in turning:
-        if not ring.has_symbol(turned.name) or not (of * of - ring.symbol(turned.name) ** 2).is_zero:
-            continue
         axis = cross(turned.directions[0], turned.directions[-1])
-        if length(axis) > NEAR:
-            draw_spring(spiral(turned.vertex, unit(axis), pose.view, 1.5 * _HALF), name, notes)
-            return True
-    return False
+        is_it = ring.has_symbol(turned.name) and (of * of - ring.symbol(turned.name) ** 2).is_zero
+        if is_it and length(axis) > NEAR:
+            return turned.vertex, unit(axis)
+    return None
 
 
 def _ends(of: Expr, pose: PlacedPose) -> tuple[Place, Place] | None:

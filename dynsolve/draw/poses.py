@@ -13,7 +13,7 @@ Springs at joints: a spiral about the axis of one that turns, a zigzag beside on
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import combinations, compress, pairwise
 
@@ -46,6 +46,7 @@ from dynsolve.draw.vectors import (
     segment_distance,
     subtract,
     toward,
+    unit,
 )
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Negative, Node, Number, Row, Symbol, Words
@@ -500,7 +501,7 @@ def gravity(robot: Robot, place: Point, pull: Vector, view: View, notes: Notes) 
 SPRINGS = "A spiral or a zigzag at a joint is a spring."
 OTHER_SPRINGS = "Springs on other than one joint, or given by their energy, are not drawn."
 DAMPERS = "A cup with a piston is a damper."
-OTHER_DAMPERS = "Dampers on other than one joint that slides are not drawn."
+OTHER_DAMPERS = "Dampers on other than one joint are not drawn."
 MOTORS = "A box beside a joint is a motor with a coordinate of its own."
 OTHER_MOTORS = "Motors without a coordinate of their own are not drawn."
 
@@ -516,16 +517,18 @@ _BESIDE, _HALF, _ENDS, _TOOTH, _LONGEST = 22.0, 6.0, 10.0, 6.0, 96.0
 _CUP, _CUP_HALF = 16.0, 6.0
 """Of a damper: the length of its cup, and half its width."""
 
+_DAMPED, _DAMPED_REACH = 15.0, 44.0
+"""Of a damper at a joint that turns: how far from the joint its arc runs, and how long that is."""
+
 
 def joint_springs(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, Expr]]:
     """The joints along whose variable alone a spring acts, with its stiffness."""
     return _at_joints(robot.actions.stored, robot, numbers, pose)
 
 
-def slide_dampers(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, Expr]]:
-    """The joints that slide along whose variable alone a damper acts, with its damping."""
-    found = _at_joints(robot.actions.resisting, robot, numbers, pose)
-    return [(part, damping) for part, damping in found if part.type is JointType.PRISMATIC]
+def joint_dampers(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, Expr]]:
+    """The joints along whose variable alone a damper acts, with its damping."""
+    return _at_joints(robot.actions.resisting, robot, numbers, pose)
 
 
 def _at_joints(
@@ -562,14 +565,19 @@ def _rows(robot: Robot, coordinates: Collection[int]) -> list[int]:
 
 def springs(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None:
     """Every such spring with its stiffness, and every such damper with its damping."""
-    for part, stiffness in joint_springs(robot, numbers, pose):
+    at_joints = joint_springs(robot, numbers, pose)
+    for part, stiffness in at_joints:
         name = written(robot)(stiffness)
         if part.type is JointType.REVOLUTE:
             draw_spring(spiral(part.center, part.axis, pose.view), name, notes)
         else:
             draw_spring(zigzag(*_ends(pose, part), _BESIDE), name, notes)
-    for part, damping in slide_dampers(robot, numbers, pose):
-        draw_damper(*_ends(pose, part), -_BESIDE, written(robot)(damping), notes)
+    for part, damping in joint_dampers(robot, numbers, pose):
+        if part.type is JointType.REVOLUTE:
+            inner = _OUTER - 4.0 if any(part == other for other, _ in at_joints) else RADIUS
+            draw_turned_damper(part.center, part.axis, pose.view, inner, written(robot)(damping), notes)
+        else:
+            draw_damper(*_ends(pose, part), -_BESIDE, written(robot)(damping), notes)
 
 
 def _ends(pose: Pose, part: JointBody) -> tuple[Point, Point]:
@@ -647,20 +655,60 @@ def zigzag(a: Point, b: Point, beside: float) -> Iterator[Point]:
 
 
 def draw_damper(a: Point, b: Point, beside: float, name: Node, notes: Notes) -> None:
-    """A cup that opens to the second end, the piston in it, and the damping."""
-    reach, way = math.dist(a, b) or 1.0, toward(a, b)
+    """A damper beside the line from a point to another, held by both ends."""
+    way = toward(a, b)
     across = -way[1], way[0]
 
     def at(along: float, aside: float) -> Point:
         return moved(moved(a, way, along), across, beside + aside)
 
+    _dashpot(at, math.dist(a, b) or 1.0, (a, b), name, notes)
+
+
+def draw_turned_damper(
+    center: Vector, axis: Vector, view: View, inner: float, name: Node, notes: Notes
+) -> None:
+    """A damper on an arc round an axis, where most room is, held by both ends at the radius `inner`."""
+    across = cross(axis, view.toward)
+    first = view.right if math.hypot(*view.direction(across)) < NEAR else unit(across)
+    second, middle = cross(axis, first), inner + _DAMPED
+    turn = _DAMPED_REACH / middle
+
+    def place(radius: float, turned: float) -> Point:
+        direction = add(scale(first, math.cos(turned)), scale(second, math.sin(turned)))
+        return view.point(along(center, direction, view.space(radius)))
+
+    def crowded(start: float) -> int:
+        turns = [start + turn * k / 6 for k in range(7)]
+        rings = ([place(middle + k * _CUP_HALF, each) for each in turns] for k in (-1, 0, 1, 2))
+        room = Box.around(place(middle + 2.5 * _CUP_HALF, start + turn / 2), *(4 * _CUP_HALF,) * 2)
+        return sum(
+            notes.taken.cells_on(*pair) for ring in rings for pair in pairwise(ring)
+        ) + notes.taken.inside(room)
+
+    start = min((math.pi * k / 8 for k in range(16)), key=crowded)
+
+    def at(along: float, aside: float) -> Point:
+        return place(middle + aside, start + along / middle)
+
+    _dashpot(at, _DAMPED_REACH, (at(0.0, -_DAMPED), at(_DAMPED_REACH, -_DAMPED)), name, notes)
+
+
+def _dashpot(
+    at: Callable[[float, float], Point], reach: float, ends: tuple[Point, Point], name: Node, notes: Notes
+) -> None:
+    """A cup that opens to the second end, the piston in it, and the damping: `at` is along and aside."""
     middle = reach / 2
     back, front = middle - _CUP / 2, middle + _CUP / 2
+
+    def way(start: float, end: float, aside: float = 0.0) -> list[Point]:
+        return [at(start + (end - start) * k / 6, aside) for k in range(7)]
+
     lines = (
-        paths.line(a, at(0.0, 0.0), at(back, 0.0)),
-        paths.line(at(front, _CUP_HALF), at(back, _CUP_HALF), at(back, -_CUP_HALF), at(front, -_CUP_HALF)),
+        paths.line(ends[0], *way(0.0, back)),
+        paths.line(*way(front, back, _CUP_HALF), *way(back, front, -_CUP_HALF)),
         paths.line(at(middle, _CUP_HALF - 2), at(middle, 2 - _CUP_HALF)),
-        paths.line(at(middle, 0.0), at(reach, 0.0), b),
+        paths.line(*way(middle, reach), ends[1]),
     )
     notes.draw(*(Path(line, paths.BLACK, 1.4) for line in lines), behind=True)
     notes.label(name, [at(middle, _CUP_HALF), at(middle, -_CUP_HALF)], (0.0, 0.0), paths.BLACK, "damper")

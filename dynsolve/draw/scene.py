@@ -49,8 +49,8 @@ from dynsolve.draw.poses import (
     SPRINGS,
     Notes,
     Pose,
+    joint_dampers,
     joint_springs,
-    slide_dampers,
     springs,
 )
 from dynsolve.draw.skeleton import Orientation, RobotNumbers, numbers, orientation
@@ -166,6 +166,7 @@ PARALLELS = "Dashed grey lines at a joint are parallel to the directions between
 OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey."
 CORNERS = "A square corner is 90°."
 RINGS = "A red arrow around an axis shows the positive sense of the angle."
+IN_SI = "The number at a spring or a damper is its constant in SI units."
 IN_METRES = "Lengths are in m."
 SHAPES = "Uniform bodies of a given shape are tan, the rest of the arm is blue-grey."
 POINTS = "A black ball is a point mass."
@@ -275,7 +276,7 @@ def _caption(
     robot, is_drawn = problem.robot, problem.normals is not None
     aside = is_aside(robot, values, is_drawn)
     dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
-    dampers, motors = slide_dampers(robot, values, pose), poses.own_motors(robot, values, pose)
+    dampers, motors = joint_dampers(robot, values, pose), poses.own_motors(robot, values, pose)
     turned_about = _BOLD[robot.base_turns[0][0]] if robot.base_turns else ""
     same_axis = f"{turned_about}₀, about which the base is turned, is that of the world, too."
     said = (
@@ -300,6 +301,7 @@ def _caption(
         (FORCES, any(drawn_forces(robot, values, pose))),
         (MOMENTS, any(not load.moment.is_zero for load in robot.questions.loads)),
         (TURNING, any(map(is_turning, robot.questions.loads))),
+        (IN_SI, any(label.kind in ("spring", "damper") and _is_number(label) for label in labels)),
         (IN_METRES, any(label.kind == "length" and _is_number(label) for label in labels)),
     )
     opening = CAPTION if frames else WITHOUT_FRAMES

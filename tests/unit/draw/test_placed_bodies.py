@@ -31,7 +31,7 @@ from dynsolve.draw.poses import (
     own_motors,
 )
 from dynsolve.draw.poses import SPRINGS as SPRINGS_AT_JOINTS
-from dynsolve.draw.scene import scene
+from dynsolve.draw.scene import IN_SI, scene
 from dynsolve.draw.skeleton import finite, numbers, orientation
 from dynsolve.draw.vectors import NEAR, cross, distance, dot, point_to_segment, scale
 from dynsolve.errors import UsageError
@@ -195,7 +195,8 @@ model:
         ("springs: [{stiffness: k, of: x - y}]", [], NOT_DRAWN[0]),  # the bodies are y + r - x apart
         ("springs: [{stiffness: k, of: x + a*l}]", [], NOT_DRAWN[0]),
         ("springs: [{energy: k*sin(a)^2}]", [], NOT_DRAWN[0]),
-        ("dampers: [{damping: b, of: a}]", [], NOT_DRAWN[1]),
+        ("dampers: [{damping: b, of: a}]", ["b"], DAMPERS),
+        ("dampers: [{damping: b, of: x - y}]", [], NOT_DRAWN[1]),
     ],
 )
 def test_springs_and_dampers_are_where_they_act(acts: str, drawn: list[str], said: str) -> None:
@@ -360,7 +361,7 @@ def test_without_springs_nothing_is_said_of_them() -> None:
         ("springs: [{stiffness: k, of: q1 - q2}]", [OTHER_SPRINGS]),
         ("springs: [{energy: k*sin(q1)^2}]", [OTHER_SPRINGS]),
         ("dampers: [{damping: b, of: q1 - q2}]", [OTHER_DAMPERS]),
-        ("dampers: [{damping: b, of: q2}]", [OTHER_DAMPERS]),
+        ("dampers: [{damping: b, of: q2}]", [DAMPERS]),
         ("dampers: [{damping: b, of: q3}]", [DAMPERS]),
     ],
 )
@@ -369,6 +370,19 @@ def test_what_is_not_drawn_is_said(acts: str, said: list[str]) -> None:
     assert [
         each for each in (SPRINGS_AT_JOINTS, OTHER_SPRINGS, DAMPERS, OTHER_DAMPERS) if each in caption
     ] == said
+
+
+@pytest.mark.parametrize("spring", ["", "springs: [{stiffness: k, of: q2}]"])
+def test_a_damper_of_an_angle_stands_round_its_joint_clear_of_all_else(spring: str) -> None:
+    rows = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nmasses: [{mass: m, link: 2, center: tip}]\n"
+    picture = drawn_text(f"{rows}dampers: [{{damping: b, of: q2}}]\n{spring}")
+    assert names(picture, "damper") == ["b"]
+    assert overlapping(picture) == [] and struck_through(picture) == []
+
+
+def test_what_unit_the_number_at_a_damper_has_is_said() -> None:
+    assert IN_SI in drawn_text(f"{ROWS}dampers: [{{damping: 0.1, of: q2}}]").caption
+    assert IN_SI not in drawn_text(f"{ROWS}dampers: [{{damping: b, of: q2}}]").caption
 
 
 def test_a_spring_along_the_variable_of_a_joint_is_drawn_there() -> None:
