@@ -51,7 +51,7 @@ from dynsolve.draw.vectors import (
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Negative, Node, Number, Row, Symbol, Words
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Act, JointType, Robot
+from dynsolve.robot.model import Act, JointType, Robot, Rotor
 
 AXIS = 44.0
 """How long the axes of frames are drawn."""
@@ -502,13 +502,13 @@ SPRINGS = "A spiral or a zigzag at a joint is a spring."
 OTHER_SPRINGS = "Springs on other than one joint, or given by their energy, are not drawn."
 DAMPERS = "A cup with a piston is a damper."
 OTHER_DAMPERS = "Dampers on other than one joint are not drawn."
-MOTORS = "A box beside a joint is a motor with a coordinate of its own."
-OTHER_MOTORS = "Motors without a coordinate of their own are not drawn."
+MOTORS = "A dark box at a joint is a motor, with its coordinate or its moment of inertia if that is a letter."
+OTHER_MOTORS = "Motors that are not on the link before the joint that they drive are not drawn."
 
 _INNER, _OUTER, _TURNS = RADIUS + 1.0, RADIUS + 13.0, 1.75
 _STEPS = 72
-_MOTOR, _CASE, _CORNERS = 46.0, 9.0, ((1, 1), (1, -1), (-1, -1), (-1, 1))
-"""Of a motor: how far from its joint it stands, half its side, and its corners."""
+_SHAFT, _CASE, _CORNERS = 7.0, 9.0, ((1, 1), (1, -1), (-1, -1), (-1, 1))
+"""Of a motor: the length of its shaft, half its side, and its corners."""
 
 _BESIDE, _HALF, _ENDS, _TOOTH, _LONGEST = 22.0, 6.0, 10.0, 6.0, 96.0
 """Of a zigzag: how far beside its joint it runs, half its width, its ends, half its period, all its teeth."""
@@ -585,39 +585,48 @@ def _ends(pose: Pose, part: JointBody) -> tuple[Point, Point]:
     return pose.view.point(leg.foot), pose.view.point(leg.head)
 
 
-def own_motors(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, int]]:
-    """The motors with a coordinate of their own, from 0, each at the joint that its spring acts on.
+def drawn_motors(robot: Robot, numbers: RobotNumbers, pose: Pose) -> list[tuple[JointBody, Rotor]]:
+    """The motors that stand at a joint.
 
-    One without a spring stands at the joint after the link that carries it.
+    One with a coordinate of its own, from 0, stands at the joint that its spring acts on, without a spring at
+    the joint after the link that carries it; one that is geared to a joint there if that link is before it.
     """
     found = []
     for rotor in robot.actions.rotors:
         if _rows(robot, {rotor.turns}):
-            continue
-        forms = (_rates(robot, act.along[0], numbers) for act in robot.actions.stored if act.along)
-        rows = [row for rates in forms if rotor.turns in rates for row in _rows(robot, [*rates])]
-        at = (rows or [rotor.carrier + 1])[0]
-        found += [(part, rotor.turns) for part in pose.parts.joints if part.row == at]
+            joints = (j for j in robot.joints if j.parent == rotor.carrier)
+            rows = [j.index for j in joints if [k for k, _ in j.rates] == [rotor.turns]]
+        else:
+            forms = (_rates(robot, act.along[0], numbers) for act in robot.actions.stored if act.along)
+            sprung = [row for rates in forms if rotor.turns in rates for row in _rows(robot, [*rates])]
+            rows = [*sprung, rotor.carrier + 1]
+        found += [(part, rotor) for part in pose.parts.joints if part.row in rows[:1]]
     return found
 
 
 def motors(robot: Robot, numbers: RobotNumbers, pose: Pose, notes: Notes) -> None:
-    """A box for every such motor, with its shaft towards the joint, and the letter of its coordinate."""
-    for part, turns in own_motors(robot, numbers, pose):
+    """A box for every such motor, its shaft towards the joint, with its coordinate or its inertia."""
+    sprung = [part for part, _ in joint_springs(robot, numbers, pose) if part.type is JointType.REVOLUTE]
+    for part, rotor in drawn_motors(robot, numbers, pose):
         center = pose.view.point(part.center)
         ways = [(math.cos(math.pi * k / 8), math.sin(math.pi * k / 8)) for k in range(16)]
 
-        def crowded(way: Point, center: Point = center) -> int:
-            return notes.taken.inside(Box.around(moved(center, way, _MOTOR), *(4 * _CASE,) * 2))
+        edge = _OUTER - 4.0 if part in sprung else RADIUS
+        reach = edge + _SHAFT + _CASE
+
+        def crowded(way: Point, center: Point = center, reach: float = reach) -> int:
+            return notes.taken.inside(Box.around(moved(center, way, reach), *(4 * _CASE,) * 2))
 
         way = min(ways, key=crowded)
-        at, (x, y) = moved(center, way, _MOTOR), scaled(way, _CASE)
+        at, (x, y) = moved(center, way, reach), scaled(way, _CASE)
         corners = [(at[0] + s * x - t * y, at[1] + s * y + t * x) for s, t in _CORNERS]
-        edge = _OUTER - 4.0 if pose.view.flat and part.type is JointType.REVOLUTE else RADIUS
         shaft = paths.line(moved(center, way, edge), moved(at, way, -_CASE))
         notes.draw(Path(shaft, paths.BLACK, 3.0), Path(paths.polygon(corners), fill=paths.DARK_SIDE))
-        name = Symbol(robot.coordinates[turns].name, star=True)
-        notes.label(name, [at], way, paths.VARIABLE, "variable", 1.2 * _CASE)
+        if not _rows(robot, {rotor.turns}):
+            name = Symbol(robot.coordinates[rotor.turns].name, star=True)
+            notes.label(name, [at], way, paths.VARIABLE, "variable", 1.2 * _CASE)
+        elif not rotor.inertia.is_number:
+            notes.label(written(robot)(rotor.inertia), [at], way, paths.BLACK, "motor", 1.2 * _CASE)
 
 
 def draw_spring(points: Iterator[Point], name: Node, notes: Notes, *, behind: bool = False) -> None:

@@ -276,7 +276,7 @@ def _caption(
     robot, is_drawn = problem.robot, problem.normals is not None
     aside = is_aside(robot, values, is_drawn)
     dashed, at_joints = parallels(robot, pose), joint_springs(robot, values, pose)
-    dampers, motors = joint_dampers(robot, values, pose), poses.own_motors(robot, values, pose)
+    dampers, motors = joint_dampers(robot, values, pose), poses.drawn_motors(robot, values, pose)
     turned_about = _BOLD[robot.base_turns[0][0]] if robot.base_turns else ""
     same_axis = f"{turned_about}₀, about which the base is turned, is that of the world, too."
     said = (

@@ -27,8 +27,8 @@ from dynsolve.draw.poses import (
     OTHER_DAMPERS,
     OTHER_MOTORS,
     OTHER_SPRINGS,
+    drawn_motors,
     joint_springs,
-    own_motors,
 )
 from dynsolve.draw.poses import SPRINGS as SPRINGS_AT_JOINTS
 from dynsolve.draw.scene import IN_SI, scene
@@ -335,17 +335,17 @@ def test_an_elastic_joint_has_a_spring_between_its_motor_and_its_link() -> None:
         ("motors: [{turns: m*, inertia: J, carrier: 2}]\nsprings: [{stiffness: k, of: q3 - m}]", [3], ["m⋆"]),
         ("motors: [{turns: m*, inertia: J}]", [1], ["m⋆"]),
         ("motors: [{turns: q2, inertia: J}]", [], []),
+        ("motors: [{turns: q2, inertia: J, carrier: 1, ratio: n}]", [2], ["J"]),
+        ("motors: [{turns: q3, inertia: 0.01, carrier: 2, ratio: 50}]", [3], []),
     ],
 )
-def test_a_motor_with_a_coordinate_of_its_own_stands_at_its_joint(
-    motors: str, rows: list[int], letters: list[str]
-) -> None:
+def test_a_motor_stands_at_its_joint(motors: str, rows: list[int], letters: list[str]) -> None:
     problem = read_problem(f"{ROWS}{motors}", "motor.yaml")
     values = numbers(problem)
     pose = best_pose(problem.robot, values, orientation(problem.robot, values))
-    assert [part.row for part, _ in own_motors(problem.robot, values, pose)] == rows
+    assert [part.row for part, _ in drawn_motors(problem.robot, values, pose)] == rows
     picture = scene(problem)
-    assert [name for name in names(picture, "variable") if name == "m⋆"] == letters
+    assert [name for name in names(picture, "variable") if name == "m⋆"] + names(picture, "motor") == letters
     assert (MOTORS in picture.caption, OTHER_MOTORS in picture.caption) == (bool(rows), not rows)
     assert overlapping(picture) == []
 
