@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property, partial, reduce
+from itertools import islice
 from math import comb, lcm, prod
 from operator import and_
 
@@ -25,7 +26,8 @@ from dynsolve.algebra.linear_systems import FractionMatrix
 from dynsolve.algebra.matrix import Matrix, minors
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Expr, Ring
-from dynsolve.algebra.sampling import Transfer
+from dynsolve.algebra.ring_values import evaluate
+from dynsolve.algebra.sampling import Transfer, samples
 from dynsolve.derivation.actions import stored_apart
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.kinematics import distances_from_axis
@@ -478,6 +480,9 @@ def _turned_by(robot: Robot, link: int) -> frozenset[str]:
 MOST_MINORS = 10
 """The squares of more are not added up."""
 
+SIGNS = 12
+"""So many states show whether an expression changes its sign."""
+
 LONG_FACTORS = 150
 """Expressions of more terms are not taken apart: over roots that takes minutes."""
 
@@ -550,17 +555,31 @@ class ProductForms:
                 numerator, divisor = numerator * base, divisor * base
         if self._is_negative(divisor):  # of a determinant, a₁ a₃ - a₂² c², and not its opposite
             numerator, divisor = -numerator, -divisor
-        choices = (divmod(numerator.poly, divisor.poly), exactly_divided(numerator, divisor))
+        over, under = numerator, divisor
+        if max(len(over), len(under)) <= LONG_FACTORS:
+            over, under = map(self._mirrored, (over, under))
+        mirrored = divmod(over.poly, under.poly)
+        choices = (divmod(numerator.poly, divisor.poly), exactly_divided(numerator, divisor), mirrored)
         splits = [[Expr(self.ring, self.ring.reduce(part)) for part in parts] for parts in choices]
-        whole, rest = min(splits, key=lambda parts: (_has_halves(*parts), sum(map(len, parts))))
+        best = min(splits, key=lambda parts: (_has_halves(*parts), sum(map(len, parts))))
+        whole, rest = map(self._mirrored, best) if best is splits[-1] else best
         if (
             _has_halves(whole, rest) <= _has_halves(numerator)
-            and len(whole) + len(rest) < len(numerator)
+            and sum(map(len, best)) < min(len(numerator), len(over))
             and not rest.is_zero
         ):
             return total([self.form(whole), self._quotient(RationalExpr(rest, divisor))])
-        below, under = self._factors(divisor, apart=True)
-        return self.over(numerator, below, *under)
+        below, factors = self._factors(divisor, apart=True)
+        return self.over(numerator, below, *factors)
+
+    def _mirrored(self, expr: Expr) -> Expr:
+        """With sines for the cosines of what moves, and cosines for its sines."""
+        place = list(self.ring.ctx.gens())
+        for pair in self.ring.pairs:
+            if not pair.angle.is_constant:
+                s, c = pair.sine, pair.cosine
+                place[s], place[c] = place[c], place[s]
+        return Expr(self.ring, self.ring.reduce(expr.poly.compose(*place, ctx=self.ring.ctx)))
 
     def over(self, numerator: Expr, number: Fraction | int, *under: Factor) -> Node:
         """A numerator over a number and factors; with a minus in front where that is shorter."""
@@ -574,7 +593,11 @@ class ProductForms:
         return found if split_sign(found)[0] > 0 else min(signed(-1), found, key=cost)
 
     def _is_negative(self, expr: Expr) -> bool:
-        """Whether of the terms without a coordinate more is negative."""
+        """Whether it is at many states, or, of changing sign, of the terms without a coordinate more."""
+        signs = (evaluate(expr, at) < 0 for at in islice(samples(self.ring), SIGNS))
+        first = next(signs)
+        if all(sign == first for sign in signs):
+            return first
         moving = self.ring.moving
         fixed = (f for e, f in expr.poly.terms() if not any(n and k in moving for k, n in enumerate(e)))
         return sum(map(fraction, fixed), start=Fraction(0)) < 0

@@ -7,7 +7,8 @@ linear angles, with rational factors.  `trig_forms` gives those worth considerin
 - powers of s and c, an angle at a time with s² eliminated, with c² eliminated, or
   with neither (every term of the same degree, by factors s² + c² = 1);
 - the same over the other choices of two basic angles: θ₂ and θ₃ in place of θ₂ and θ₂ + θ₃;
-- the Fourier form (`algebra.ring`): sines and cosines of integer combinations of angles.
+- the Fourier form (`algebra.ring`): sines and cosines of integer combinations of angles, and with squares
+  for those of doubled angles.
 
 `AngleGroup.choose` picks one of them.  A polynomial is a dictionary {exponents: factor}, the
 exponents those of (s₁, c₁, s₂, c₂, …) in the basic angles.
@@ -58,6 +59,9 @@ TrigForm = dict[TrigMonomial, Rational]
 LARGEST_POWER = 6
 """Above this power of one angle only the Fourier form and the normal form are tried."""
 
+MOST_DOUBLED = 4
+"""Of more cosines of doubled angles no squares are made."""
+
 MOST_COMBINED = 6
 """Of more terms no two are combined by themselves."""
 
@@ -77,6 +81,7 @@ def trig_forms(poly: TrigPolynomial) -> list[TrigForm]:
         return found
     fourier = fourier_form(poly)
     found.append({() if not any(f[1]) else ((f, 1),): factor for f, factor in terms_of(fourier)})
+    found.extend(_squares(fourier))
     if max(max(e) for e in poly) > LARGEST_POWER:
         return _distinct(found)
     basis = [unit[j] for j in used]
@@ -86,6 +91,26 @@ def trig_forms(poly: TrigPolynomial) -> list[TrigForm]:
         if over is not None:
             found.extend(_eliminations(over, other))
     return _distinct(found)
+
+
+def _squares(fourier: FourierForm) -> Iterator[TrigForm]:
+    """1 - cos 2α = 2 sin² α and 1 + cos 2α = 2 cos² α where these take up of the constant: s₂² + s₃²."""
+    terms = list(terms_of(fourier))
+    constant = sum((f for (_, n), f in terms if not any(n)), start=Fraction(0))
+    even = [name == "cos" and not any(m % 2 for m in n) for (name, n), _ in terms]
+    doubled = [(n, f) for is_even, ((_, n), f) in zip(even, terms, strict=True) if is_even and any(n)]
+    rest = [term for is_even, term in zip(even, terms, strict=True) if not is_even]
+    for signs in product((1, -1), repeat=len(doubled)) if constant and len(doubled) <= MOST_DOUBLED else ():
+        left = constant - sum(map(mul, signs, (f for _, f in doubled)), start=Fraction(0))
+        if abs(left) < abs(constant):
+            halves = (
+                (sign, tuple(m // 2 for m in n), f) for sign, (n, f) in zip(signs, doubled, strict=True)
+            )
+            yield {
+                **({(): left} if left else {}),
+                **{((one, 1),): f for one, f in rest},
+                **{((("cos" if sign > 0 else "sin", n), 2),): 2 * f * sign for sign, n, f in halves},
+            }
 
 
 def _other_bases(basis: list[Multiples]) -> Iterator[list[Multiples]]:
