@@ -428,7 +428,9 @@ class _Page(TypesetPage):
         for formula, following in pairwise([*formulas, after]):
             assert isinstance(formula, Formula)
             last = self.kept(formula)
-            stays = self.closes(formula) or introduces(formula, following, following is formulas[-1])
+            stays = self.closes(formula) or introduces(
+                formula, following, following is formulas[-1] and self.is_lost(following)
+            )
             columns = self.columns(formula)
             lines = [] if columns else self.lines_of(formula)
             label = self.label(formula)

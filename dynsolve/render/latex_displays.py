@@ -103,8 +103,8 @@ def aligned(
 
 
 def _rows(lines: Sequence[Line], label: str, last: int) -> Iterator[str]:
-    stays = stay([bool(line.left) for line in lines], last)
     texts = [level(line) for line in lines]
+    stays = stay([bool(line.left) for line in lines], last, [_MATRIX in text for text in texts])
     notag = r" \notag" if label else ""
     for (text, below), keep in zip(pairwise(texts), stays[:-1], strict=True):
         yield text + notag + _end(text, below, keep)

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import Generic, TypeVar
 
 from dynsolve.document import (
@@ -86,6 +86,9 @@ LAST_OF_DOCUMENT = 8
 _ENOUGH = 5
 """The rows of a last page to which no matrices are added, which would leave a gap on the page before."""
 
+_TALL = 3
+"""So many rows a row with a matrix counts for: after it a page may end sooner."""
+
 _FIRST = 2
 _LONG = 350
 """A paragraph of more letters need not stay with a table."""
@@ -102,14 +105,26 @@ def runs_of_rows(count: int, last: int = LAST_OF_DISPLAY) -> tuple[int, ...]:
     return (_FIRST, *[1] * (count - _FIRST - last), last)
 
 
-def runs_of_equations(begins: Sequence[bool], last: int = LAST_OF_DISPLAY) -> tuple[int, ...]:
+def runs_of_equations(
+    begins: Sequence[bool], last: int = LAST_OF_DISPLAY, tall: Sequence[bool] = ()
+) -> tuple[int, ...]:
     """The same for a display of several equations; `begins` says with which rows one begins.
+
+    Rows with matrices are `tall`.
 
     >>> runs_of_equations([True] * 3 + [False] + [True] * 4)
     (2, 2, 1, 1, 2)
+    >>> runs_of_equations([True, False, False], tall=[False, True, True])
+    (2, 1)
     >>> runs_of_equations([True] + [False] * 6)
     (2, 1, 1, 3)
     """
+    if any(tall):
+        sizes = [_TALL if high else 1 for high in tall]
+        counted = [begun and not k for begun, n in zip(begins, sizes, strict=True) for k in range(n)]
+        ends = {*accumulate(runs_of_equations(counted, last))}
+        rows = [row for row, end in enumerate(accumulate(sizes), 1) if end in ends]
+        return tuple(end - start for start, end in pairwise([0, *rows]))
     starts = [row for row, begun in enumerate(begins) if begun or not row]
     sizes = [end - start for start, end in zip(starts, [*starts[1:], len(begins)], strict=True)]
     runs = [run for size in sizes for run in runs_of_rows(size, last)]
@@ -121,13 +136,13 @@ def runs_of_equations(begins: Sequence[bool], last: int = LAST_OF_DISPLAY) -> tu
     return tuple(runs)
 
 
-def stay(begins: Sequence[bool], last: int = LAST_OF_DISPLAY) -> list[bool]:
+def stay(begins: Sequence[bool], last: int = LAST_OF_DISPLAY, tall: Sequence[bool] = ()) -> list[bool]:
     """Which rows of a display stay on the page of the next.
 
     >>> stay([True] + [False] * 6)
     [True, False, False, False, True, True, False]
     """
-    ends = set(accumulate(runs_of_equations(begins, last)))
+    ends = set(accumulate(runs_of_equations(begins, last, tall)))
     return [row not in ends for row in range(1, len(begins) + 1)]
 
 
@@ -466,6 +481,10 @@ class TypesetPage(MarkupPage):
             case List():
                 return len(block.items)
         return 1
+
+    def is_lost(self, block: Block | None) -> bool:
+        """Whether a last block is so short that it has no page of its own."""
+        return block is not None and self.rows(block) < LAST_OF_DISPLAY
 
     def close(self, document: Document) -> None:
         """Let no page end in the last rows of a document."""

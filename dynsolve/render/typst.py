@@ -238,7 +238,8 @@ class _Page(TypesetPage):
                 yield from self.results([block for block, _ in shown if isinstance(block, Formula)])
                 continue
             for block, following in shown:
-                self.sticks = self.closes(block) or introduces(block, following, following is listed[-1])
+                closes = following is listed[-1] and self.is_lost(following)
+                self.sticks = self.closes(block) or introduces(block, following, closes)
                 yield from self.stuck(block)
 
     def is_level(self, block: Block) -> bool:
@@ -368,13 +369,7 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
     rights = list(map(_right, lines))
     for line, right, apart, side in zip(lines, rights, _apart(rights), sides, strict=True):
         rows.append(f"({_math(line.left)}, {_math(right)}, {apart}em, [{side}])")
-    all_tall = all("mat(" in right for right in rights)
-    if all_tall:  # equations so high may stand alone
-        starts = [k for k, begins in enumerate(map(_begins, lines)) if begins or not k]
-        ends = [*starts[1:], len(lines)]
-        runs = ", ".join(f"({', '.join(rows[a:b])},)" for a, b in zip(starts, ends, strict=True))
-    else:
-        runs = _in_runs(rows, list(map(_begins, lines)), last)
+    runs = _in_runs(rows, list(map(_begins, lines)), last, ["mat(" in right for right in rights])
     return f"#formula-lines({runs}{_STICKY * sticks})"
 
 
@@ -395,10 +390,10 @@ def _begins(line: Line) -> bool:
     return bool(line.left) or not line.name
 
 
-def _in_runs(rows: Sequence[str], begins: Sequence[bool], last: int) -> str:
+def _in_runs(rows: Sequence[str], begins: Sequence[bool], last: int, tall: Sequence[bool] = ()) -> str:
     """The rows of a display in runs in which no page ends; each run is an array of rows."""
     left = iter(rows)
-    runs = [islice(left, count) for count in runs_of_equations(begins, last)]
+    runs = [islice(left, count) for count in runs_of_equations(begins, last, tall)]
     return ", ".join(f"({', '.join(run)},)" for run in runs)
 
 

@@ -15,7 +15,7 @@ from dynsolve.render import html, markdown, terminal
 from dynsolve.render.latex import latex_text
 from dynsolve.render.line_breaking import numbered
 from dynsolve.render.markdown import escaped
-from dynsolve.render.page import before_closing, closing, introduces
+from dynsolve.render.page import before_closing, closing, introduces, runs_of_equations
 from dynsolve.render.prose import visible, with_formulas
 from dynsolve.render.typst import to_typst_document
 from dynsolve.solution.documents import solution_document
@@ -223,3 +223,19 @@ def test_lines_with_fractions_are_kept_apart_in_a_pdf() -> None:
     lines = [equation(Symbol(name), read("q/3").tree) for name in "abc"]
     text = to_typst_document(Document((Equations((SHORT.node, *lines)),)))
     assert text.count("pad(y: 0.0em") == text.count("pad(y: 0.15em") == 2
+
+
+def test_a_last_formula_with_a_matrix_may_begin_a_page_in_a_pdf() -> None:
+    """Kept with the formula before it, it left a third of the page before empty."""
+    tall = Formula(equation(Letter("A"), Matrix(((Number(1),),) * 4)), label="A")
+    step = Fold("", (Text(("So.",)), RESULT, tall))
+    shown = to_typst_document(Document((step, *[MATRIX] * 9))).splitlines()
+    first, last, *_ = (line for line in shown if line.startswith("#formula"))
+    assert "eq-h" in first and "sticky: true" not in first
+    assert "eq-A" in last
+
+
+def test_a_page_may_end_between_two_rows_of_matrices() -> None:
+    assert runs_of_equations([True, False, False], tall=[False, True, True]) == (2, 1)
+    assert runs_of_equations([True, False, False]) == (3,)
+    assert runs_of_equations([True] * 4, tall=[True] * 4) == (1, 1, 1, 1), "equations so high stand alone"
