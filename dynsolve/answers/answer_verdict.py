@@ -55,6 +55,7 @@ FROM_NOTHING = "it is what follows from {}, where next to nothing is right"
 UNAFFECTED = "tau is unaffected"
 MAY_FOLLOW = "it is not right by itself, and may follow from {}, which could not be read"
 NOT_GENERAL = "it is not right in general; {}"
+NOT_FOUND = "it holds in every motion, and the accelerations in it are found nowhere"
 LONGER = "these are {} parameters; {} are enough"
 
 

@@ -19,6 +19,7 @@ from msgspec.structs import replace
 
 from dynsolve.answers.answer_verdict import (
     MAY_FOLLOW,
+    NOT_FOUND,
     NOT_GENERAL,
     AnswerJudge,
     in_order,
@@ -55,6 +56,8 @@ from dynsolve.derivation.rules import derive
 from dynsolve.problem.model import Problem
 from dynsolve.quantities.family import FORMED
 from dynsolve.quantities.index import quantities
+from dynsolve.questions.constraints import MULTIPLIERS
+from dynsolve.questions.constraints.judge import IN_MOTION
 
 
 class Checker:
@@ -151,7 +154,7 @@ class Judge:
         general = list(general_formulas(submission, self._asked, quantities(self.problem.robot)))
         self._general = {answer.name for answer in general}
         others += general
-        self.hand_in = ComparedHandIn(checker.graph, checker.compare_entry, others)
+        self.hand_in = ComparedHandIn(checker.graph, checker.compare_entry, others, submission.general)
         self._abbreviations = list[JudgedAnswer]()
         self.graph = self.hand_in.graph
 
@@ -241,6 +244,8 @@ class Judge:
         for name, answer in answers.items():
             if answer.verdict is not Verdict.WRONG or name in self._asked:
                 continue
+            if self.graph.quantities[name].family in MULTIPLIERS:  # a λ in an equation is its unknown
+                continue
             made = [
                 answers[other]
                 for other, chains in self.hand_in.chains.items()
@@ -271,15 +276,25 @@ class Judge:
         found = dict(answers)
         for name, answer in answers.items():
             compared = self.hand_in.comparisons[name]
+            if any(IN_MOTION in note for note in answer.notes) and not self._finds_accelerations:
+                found[name] = waiting(answer, NOT_FOUND)
             if answer.verdict is not Verdict.WRONG:
                 continue
-            if doubt := compared.answer_value.answer.doubt:
+            if compared.waits:
+                found[name] = waiting(answer, compared.waits)
+            elif doubt := compared.answer_value.answer.doubt:
                 found[name] = waiting(answer, NOT_GENERAL.format(doubt))
             elif unread and not compared.obstacles:
                 sources = self._not_or(in_order(self.graph, self.explanations.hanging_on(compared, unread)))
                 if sources:
                     found[name] = waiting(answer, MAY_FOLLOW.format(" and ".join(sources)))
         return found
+
+    @property
+    def _finds_accelerations(self) -> bool:
+        """Whether the hand-in has what the accelerations come to, or equations that they are found from."""
+        sets = {one.name for one in self.submission.configurations}
+        return bool({"qdd_forward", "reduced"} & (sets | self.hand_in.chains.keys()))
 
     def _not_or(self, names: Sequence[str]) -> list[str]:
         """Answers that could not be read, the first of those that one equation may be: V is P, or C q̇."""

@@ -1,12 +1,12 @@
 """What an exercise asks for, part by part: words, letters and points.
 
 A part is an answer with marks, or the members of one family together: (b) the matrices 𝐀₁ and 𝐀₂ of the
-rows of the table (3 points).
+rows of the table (3 points).  What a sign or an order is counted by is told, where books differ in it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby
 
@@ -15,8 +15,13 @@ from msgspec import Struct
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.given import in_words
 from dynsolve.notation.text import read
+from dynsolve.notation.tree import Product, Relation, Sum, Transpose
 from dynsolve.problem.model import Problem
+from dynsolve.quantities import letters
+from dynsolve.quantities.family import Family
 from dynsolve.quantities.index import quantities
+from dynsolve.questions.constraints import MULTIPLIERS
+from dynsolve.robot.model import Robot
 
 
 class Part(Struct, frozen=True):
@@ -48,7 +53,10 @@ def parts(problem: Problem, marks: dict[str, Fraction]) -> Iterator[Part]:
         if own[0] in own_words:
             yield Part(worded(own_words[own[0]]), own, points)
         else:
-            yield Part(("Find ", *in_words(problem.robot, [known[name] for name in own]), "."), own, points)
+            asked = [known[name] for name in own]
+            convention = CONVENTIONS.get(asked[0].family)
+            told = convention(problem.robot) if convention else ()
+            yield Part(("Find ", *in_words(problem.robot, asked), *told, "."), own, points)
 
 
 def worded(text: str) -> Prose:
@@ -59,3 +67,19 @@ def worded(text: str) -> Prose:
     """
     pieces: list[Inline] = [read(piece).tree if k % 2 else piece for k, piece in enumerate(text.split("$"))]
     return tuple(piece for piece in pieces if piece != "")
+
+
+# -- conventions, told behind what is asked --------------------------------------------------------
+
+
+def _multipliers(robot: Robot) -> Prose:
+    """D q̈ + C q̇ + g = τ + A_cᵀ λ"""
+    moved = Sum((Product((letters.D, letters.QDD)), Product((letters.C, letters.QD)), letters.G))
+    held = Sum((letters.TAU, Product((Transpose(letters.A_C), letters.LAMBDA))))
+    return (", with their sign as in ", Relation((moved, held)))
+
+
+CONVENTIONS: Mapping[Family, Callable[[Robot], Prose]] = {
+    **dict.fromkeys(MULTIPLIERS, _multipliers),
+}
+"""What is told of a family, by the robot."""

@@ -238,6 +238,9 @@ _SLIPS = (
          "The forces of the constraint are not A_cᵀ λ; without them the equation is right.",
          "Beside λ stand the derivatives of its constraint with respect to the coordinates, with one sign "
          "everywhere."),
+    Slip("multiplier_side", "the sign of the multipliers",
+         "In your equations of motion λ has the other sign.",
+         "Look on which side of them A_cᵀ λ stands."),
     # in a Denavit-Hartenberg table
     Slip("dh_cell", "one cell of the table", "Row {part}: {yours} where {other} is needed. {term}",
          "Follow the four motions of this row with the drawing: about z, along z, along x, about x."),

@@ -41,7 +41,9 @@ from dynsolve.answers.judging.key_comparison import (
     KeyComparison,
     Obstacle,
     with_own_constraint,
+    with_own_multipliers,
 )
+from dynsolve.answers.judging.own_accelerations import with_own_accelerations
 from dynsolve.answers.verdict import Answer
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, Symbol, names_in, walk, with_children
@@ -66,12 +68,15 @@ class _Equations(Struct, frozen=True):
 
 def with_moved_multipliers(
     own: OwnConstraint, comparisons: Mapping[str, KeyComparison], compare: KeyComparer
-) -> dict[str, KeyComparison]:
-    """The comparisons, those of equations with λ in them made without it."""
+) -> tuple[dict[str, KeyComparison], int]:
+    """The comparisons, those of equations with λ in them made without it, and the side of A_cᵀ λ.
+
+    That is 1 for the key's, D q̈ + C q̇ + g = τ + A_cᵀ λ, -1 for the other, and 0 where none tells.
+    """
     found = dict(comparisons)
     names = [name for name in multiplier_names(own.robot) if own.ring.has_symbol(name)]
     if not names:
-        return found
+        return found, 0
     read = {
         name: equations
         for name, one in comparisons.items()
@@ -79,7 +84,7 @@ def with_moved_multipliers(
         and (equations := _without(compare, name, one)) is not None
     }
     beside = {k: row for equations in read.values() for k, row in equations.beside.items()}
-    right = _that_are_right(own, beside)
+    right, side = _that_are_right(own, beside)
     for name, equations in read.items():
         if not any(not factor.is_zero for row in equations.beside.values() for factor in row):
             continue
@@ -88,7 +93,7 @@ def with_moved_multipliers(
             found[name] = replace(equations.compared, other=other)
         elif equations.compared.correct:
             found[name] = replace(equations.compared, obstacles=(Obstacle("constraint_forces"),))
-    return found
+    return found, side
 
 
 def _without(compare: KeyComparer, name: str, compared: KeyComparison) -> _Equations | None:
@@ -128,21 +133,41 @@ def _put_zero(node: Node, names: Sequence[str]) -> Node:
     return with_children(node, lambda part: _put_zero(part, names))
 
 
-def _that_are_right(own: OwnConstraint, beside: Mapping[int, tuple[Expr, ...]]) -> set[int]:
-    """The coordinates in whose equations the forces of the constraint are right."""
-    if len(beside) == own.robot.n:
+def _that_are_right(own: OwnConstraint, beside: Mapping[int, tuple[Expr, ...]]) -> tuple[set[int], int]:
+    """The coordinates in whose equations the forces of the constraint are right, and the side of these.
+
+    Where the equations of all coordinates keep the constraint by another matrix it is the student's own.
+    """
+    told = {k: factors for k, factors in beside.items() if not all(f.is_zero for f in factors)}
+    found = {
+        side: {k for k, factors in beside.items() if _is_column(own.rows, k, factors, -side)}
+        for side in (1, -1)
+    }
+    side = max(found, key=lambda side: len(found[side]))
+    if len(beside) == own.robot.n and len(found[side]) < len(beside):
         rows = zip(*(beside[k] for k in sorted(beside)), strict=True)
-        if own.keeps(tuple(tuple(map(RationalExpr, row)) for row in rows)):
-            return set(beside)
-    found: list[set[int]] = [
-        {k for k, factors in beside.items() if _is_column(own.rows, k, factors, sign)} for sign in (-1, 1)
-    ]
-    return max(found, key=len)
+        matrix = tuple(tuple(RationalExpr(-factor) for factor in row) for row in rows)
+        if own.keeps(matrix):
+            own.rows = matrix
+            return set(beside), 1
+    return found[side], side if found[side] & told.keys() else 0
 
 
 def _is_column(rows: Rows, k: int, factors: Sequence[Expr], sign: int) -> bool:
     """Whether factors are a column of A_c, with a sign."""
     return all(equal(row[k], RationalExpr(factor * sign)) for row, factor in zip(rows, factors, strict=True))
+
+
+def _side(general: Answer) -> int:
+    """On which side A_cᵀ λ stands in τ = D q̈ + C q̇ + g ± A_cᵀ λ; 0 of every other formula."""
+    if general.name != "tau" or general.node is None:
+        return 0
+    for part in walk(general.node):
+        for term in part.terms if isinstance(part, tree.Sum) else ():
+            of_constraint = {one.quantity for one in walk(term) if isinstance(one, tree.Reference)}
+            if "lambda" in of_constraint and of_constraint <= {"lambda", "Ac"}:
+                return 1 if isinstance(term, tree.Negative) else -1
+    return 0
 
 
 # The zero of height, which is the student's to choose
@@ -217,10 +242,17 @@ class ComparedHandIn:
     `key` is the problem's graph, `compare_entry` compares scalars, by the numbers of the problem file
     too.  `answer_ring` is the problem's ring, extended by what the answers need; `chains` has the
     equations of each quantity, `comparisons` the comparison of the answer that counts; `definitions`
-    has the equations that need what is given nowhere, which are none of the answers.
+    has the equations that need what is given nowhere, which are none of the answers.  `general` are
+    formulas of names alone, as D q̈ + C q̇ + g + A_cᵀ λ = τ, which says on which side λ stands.
     """
 
-    def __init__(self, key: AnswerGraph, compare_entry: EntryComparer, answers: Sequence[Answer]) -> None:
+    def __init__(
+        self,
+        key: AnswerGraph,
+        compare_entry: EntryComparer,
+        answers: Sequence[Answer],
+        general: Sequence[Answer] = (),
+    ) -> None:
         values = AnswerValues(key, answers)
         self.answer_ring = values.answer_ring
         self.compare_entry = compare_entry
@@ -235,8 +267,9 @@ class ComparedHandIn:
         self.graph = values.graph if is_the_keys else AnswerGraph(self.answer_ring, potential, parameters)
         self.compare = KeyComparer(self.graph, self.compare_entry, values.changed)
         compared = {name: self.compare(name, last(chains)) for name, chains in self.chains.items()}
+        compared = with_own_accelerations(compared, self.compare)
         self.comparisons = (
-            self._on_constraint(compared) if self.graph.robot.questions.constraints else compared
+            self._on_constraint(compared, general) if self.graph.robot.questions.constraints else compared
         )
         self.assembled_coriolis = self._assembled_coriolis()
 
@@ -255,10 +288,14 @@ class ComparedHandIn:
             for value in values
         ]
 
-    def _on_constraint(self, compared: Mapping[str, KeyComparison]) -> dict[str, KeyComparison]:
+    def _on_constraint(
+        self, compared: Mapping[str, KeyComparison], general: Sequence[Answer]
+    ) -> dict[str, KeyComparison]:
         """The comparisons where the student may choose the matrix of the constraint, and where λ stands."""
         own = OwnConstraint(self.graph.robot, self.graph.key)
-        return with_moved_multipliers(own, with_own_constraint(own, compared), self.compare)
+        moved, side = with_moved_multipliers(own, with_own_constraint(own, compared), self.compare)
+        sides = [side] if side else [side for side in map(_side, general) if side] or [1, -1]
+        return with_own_multipliers(own, moved, self.compare, sides)
 
     def _own_parameters(self) -> Mapping[str, Matrix]:
         asked = PARAMETERS.keys() | REGRESSORS.keys() | {REFERENCE}

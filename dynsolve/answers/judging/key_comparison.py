@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from dynsolve.algebra.fraction import RationalExpr, as_expr
-from dynsolve.algebra.linear_systems import FractionMatrix
+from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_values import AnswerValue, as_value, fitted, unfolded
 from dynsolve.answers.judging.entry_comparison import (
@@ -34,7 +34,7 @@ from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.index import Quantity
 from dynsolve.quantities.stages import Stage
-from dynsolve.questions.constraints.judge import OwnConstraint
+from dynsolve.questions.constraints.judge import OTHER_SIDE, OwnConstraint
 from dynsolve.questions.judging import Case, Missed
 from dynsolve.questions.parameters import REGRESSORS
 from dynsolve.questions.parameters.judge import forces_of, is_free, wrong_parameters
@@ -65,7 +65,8 @@ class KeyComparison(Struct, frozen=True):
 
     `other` says how it is right although it is not the key's.  `written` are
     the vectors of an answer that is a space, in the ways in which they may be meant.  `missed` is an
-    equation that it does not satisfy, `holds_with` whether it does with own values of other results.
+    equation that it does not satisfy, `holds_with` whether it does with own values of other results;
+    `waits` says why a human has to look at what is not right.
     """
 
     answer_value: AnswerValue
@@ -77,6 +78,7 @@ class KeyComparison(Struct, frozen=True):
     written: tuple[Matrix, ...] = ()
     missed: Missed | None = None
     holds_with: Callable[[Mapping[str, Any]], bool] | None = None
+    waits: str = ""
 
     @property
     def correct(self) -> bool:
@@ -273,19 +275,70 @@ class KeyComparer:
 def with_own_constraint(
     own: OwnConstraint, comparisons: Mapping[str, KeyComparison]
 ) -> dict[str, KeyComparison]:
-    """The comparisons, those of A_c, its rate and λ being right where they belong together."""
+    """The comparisons, those of A_c and its rate being right where they belong together."""
     found = dict(comparisons)
-    for name, is_right in (("Ac", own.matrix), ("Ac_dot", own.rate), ("lambda", own.multipliers)):
+    for name, is_right in (("Ac", own.matrix), ("Ac_dot", own.rate)):
         compared = found.get(name)
         if compared is None or compared.answer_value.rows is None or not compared.rows:
             continue
         if not compared.correct or own.is_other:
             other = is_right(compared.answer_value.rows)
-            right: tuple[tuple[str | None, ...], ...] = tuple(
-                tuple("" if other else None for _ in row) for row in compared.rows
-            )
             if other or compared.correct:
-                found[name] = replace(compared, right=right, other=other)
+                found[name] = _as_a_whole(compared, other)
         if name == "Ac" and found[name].correct:
             own.rows = compared.answer_value.rows
     return found
+
+
+def _as_a_whole(compared: KeyComparison, other: str) -> KeyComparison:
+    """A comparison of which every entry is right in another way, or wrong where that is empty."""
+    right = tuple(tuple("" if other else None for _ in row) for row in compared.rows)
+    return replace(compared, right=right, other=other)
+
+
+def with_own_multipliers(
+    own: OwnConstraint, comparisons: Mapping[str, KeyComparison], compare: KeyComparer, sides: Sequence[int]
+) -> dict[str, KeyComparison]:
+    """The comparisons, those of λ being right on one of these sides of the equations of motion.
+
+    1 is the side of the key, D q̈ + C q̇ + g = τ + A_cᵀ λ, and -1 the other.
+    """
+    found = dict(comparisons)
+    for name, compared in comparisons.items():
+        if compared.target.node != "lambda" or compared.answer_value.rows is None or not compared.rows:
+            continue
+        tried = [_on_side(own, compared, compare, side) for side in (1, -1)]
+        right = [one for side, one in zip((1, -1), tried, strict=True) if side in sides and one.correct]
+        if right:
+            found[name] = right[0]
+        elif any(one.correct for one in tried):
+            found[name] = replace(compared, obstacles=(Obstacle("multiplier_side"),))
+        elif compared.correct:
+            found[name] = tried[0]
+        elif (missed := own.missed(_written(compared))) is not None:
+            found[name] = replace(compared, missed=missed)
+    return found
+
+
+def _written(compared: KeyComparison) -> dict[int, RationalExpr]:
+    """The multipliers of an answer by their places, from 0."""
+    first = compared.target.entry[0] if compared.target.entry else 0
+    return {first + k: row[0].value for k, row in enumerate(compared.rows)}
+
+
+def _on_side(own: OwnConstraint, compared: KeyComparison, compare: KeyComparer, side: int) -> KeyComparison:
+    """Multipliers as they are right on one side of the equations of motion."""
+    told = OTHER_SIDE if side < 0 else ""
+    if not own.is_other:
+        if side > 0 and compared.correct:
+            return compared
+        key = compare.key(compared.target)
+        wanted = map(fraction_of, key.entries if isinstance(key, Matrix | FractionMatrix) else (key,))
+        right = tuple(
+            (compare.compare(-w if side < 0 else w, row[0]),)
+            for w, row in zip(wanted, compared.rows, strict=True)
+        )
+        if all(one is not None for (one,) in right):
+            return replace(compared, right=right, other=told)
+    other = own.multipliers(_written(compared), side)
+    return _as_a_whole(compared, "; ".join(filter(None, (told, other))) if other else "")

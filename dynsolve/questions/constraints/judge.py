@@ -1,8 +1,9 @@
 """Verdicts on equations of motion without multipliers, and on a matrix of the constraint of one's own.
 
 A_c is right where its rows span those of the key's; its rate is that of the student's own A_c, and the
-multipliers are right where A_cᵀ λ is.  What differs from that for every state, and not where h = 0 and
-A_c q̇ = 0, is right too: that is held in numbers, at states of a fixed seed.
+multipliers are right where A_cᵀ λ is, on either side of the equations of motion unless the student's own
+have it on one.  What differs from that for every state, and not where h = 0 and A_c q̇ = 0, is right too:
+that is held in numbers, at states of a fixed seed.
 """
 
 from __future__ import annotations
@@ -17,12 +18,12 @@ from dynsolve.algebra.fraction import FractionRows as Rows
 from dynsolve.algebra.fraction import RationalExpr, multiply, same, summed
 from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of, rank_parts
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring_values import evaluate
 from dynsolve.algebra.sampling import samples
 from dynsolve.derivation.elimination import solved
 from dynsolve.notation.tree import Matrix as MatrixTree
 from dynsolve.notation.tree import Node
 from dynsolve.questions.constraints.check import ConstrainedStates, constrained_names
+from dynsolve.questions.forward_dynamics.judge import accelerations_in, value_at
 from dynsolve.questions.judging import (
     RIGHT,
     Alternatives,
@@ -37,11 +38,14 @@ from dynsolve.questions.judging import (
     right_as,
 )
 from dynsolve.questions.rates.check import orthonormal
+from dynsolve.questions.statics.check import outside_forces
 from dynsolve.robot.model import Robot
 
 SAME_CONSTRAINT = "right in another form of the same constraint"
 ON_CONSTRAINT = "right where the constraint holds; that was held in numbers, at several states"
 WITHOUT_MULTIPLIERS = "right with the forces of the constraint moved over: here τ + A_cᵀ λ is the right side"
+IN_MOTION = "right with the accelerations of the motion put in; that was held in numbers, at several states"
+OTHER_SIDE = "right with A_cᵀ λ on the other side: D q̈ + C q̇ + g + A_cᵀ λ = τ"
 
 STATES = 4
 """So many states on the constraint are looked at."""
@@ -141,10 +145,35 @@ class OwnConstraint:
         """Whether it is the rate of the student's matrix."""
         return self._agree(rows, tuple(tuple(map(self._rate, row)) for row in self.rows))
 
-    def multipliers(self, rows: Rows) -> str:
-        """Whether A_cᵀ λ is the key's."""
-        mine = self._forces(self.rows, [row[0] for row in rows])
-        return self._agree((mine,), (self._forces(self._key("Ac"), [row[0] for row in self._key("lambda")]),))
+    def multipliers(self, written: Mapping[int, RationalExpr], side: int = 1) -> str:
+        """Whether multipliers, by their places from 0, belong to A_cᵀ λ of the key, on its side or on -1."""
+        turned = RationalExpr(self.ring.constant(side))
+        theirs = {k: multiply(one, turned) for k, one in written.items()}
+        key = [row[0] for row in self._key("lambda")]
+        if len(theirs) < len(key):
+            if self.is_other:
+                return ""
+            mine, wanted = tuple(theirs.values()), tuple(key[k] for k in theirs)
+        else:
+            mine = self._forces(self.rows, [theirs[k] for k in range(len(key))])
+            wanted = self._forces(self._key("Ac"), key)
+        if not any(accelerations_in(self.robot, one) for one in written.values()):
+            return self._agree((mine,), (wanted,))
+        return IN_MOTION if self._close((mine,), (wanted,), self._motions) else ""
+
+    def missed(self, written: Mapping[int, RationalExpr]) -> Missed | None:
+        """The row of the equations of motion that multipliers with accelerations in them do not satisfy."""
+        if not any(accelerations_in(self.robot, one) for one in written.values()) or not self._motions:
+            return None
+        at = self._motions[0]
+        key = {k: row[0] for k, row in enumerate(self._required(self._key("lambda"), at))}
+        off = [key[k] - value_at(one, at) for k, one in written.items()]
+        matrix = self._required(self._key("Ac"), at)
+        forces = (
+            sum(matrix[k][i] * x for k, x in zip(written, off, strict=True)) for i in range(self.robot.n)
+        )
+        row = next((i for i, force in enumerate(forces, 1) if abs(force) > _CLOSE), 1)
+        return Missed("D q̈ + C q̇ + g = τ + A_cᵀ λ", row, True)
 
     def accelerations(self, entries: Sequence[RationalExpr]) -> bool:
         """Whether accelerations that forces make are the key's, for every state or where h = 0."""
@@ -170,8 +199,10 @@ class OwnConstraint:
             return ""
         if same(mine, theirs):
             return SAME_CONSTRAINT
-        gaps = (self._gap(mine, theirs, at) for at in self.states)
-        return ON_CONSTRAINT if self.states and all(gap < _CLOSE for gap in gaps) else ""
+        return ON_CONSTRAINT if self._close(mine, theirs, self.states) else ""
+
+    def _close(self, mine: Rows, theirs: Rows, states: Sequence[Mapping[str, float]]) -> bool:
+        return bool(states) and all(self._gap(mine, theirs, at) < _CLOSE for at in states)
 
     def _gap(self, mine: Rows, theirs: Rows, at: Mapping[str, float]) -> float:
         ours, keys = self._numbers(mine, at), self._numbers(theirs, at)
@@ -189,13 +220,9 @@ class OwnConstraint:
 
     def _numbers(self, rows: Rows, at: Mapping[str, float]) -> list[list[float]] | None:
         try:
-            return [[self._number(entry, at) for entry in row] for row in rows]
+            return self._required(rows, at)
         except (ValueError, ZeroDivisionError):
             return None
-
-    def _number(self, entry: RationalExpr, at: Mapping[str, float]) -> float:
-        above = evaluate(entry.numerator, at)
-        return above if entry.divisor is None else above / evaluate(entry.divisor, at)
 
     # -- states on the constraint ------------------------------------------------------------------
 
@@ -204,6 +231,29 @@ class OwnConstraint:
         """States with h = 0 and A_c q̇ = 0."""
         tried = map(self._state, islice(samples(self.ring), _TRIES))
         return list(islice((state for state in tried if state is not None), STATES))
+
+    @cached_property
+    def _motions(self) -> list[dict[str, float]]:
+        """The same, each with the accelerations that its forces make: D q̈ + C q̇ + g = τ + Q + A_cᵀ λ."""
+        return [{**at, **self._accelerations(at)} for at in self.states]
+
+    def _accelerations(self, at: Mapping[str, float]) -> dict[str, float]:
+        names = [q.acceleration for q in self.robot.coordinates]
+        tau = self._key("tau")
+
+        def moving(name: str = "") -> list[float]:
+            still = {**at, **dict.fromkeys(names, 0.0)}
+            return [row[0] for row in self._required(tau, still | ({name: 1.0} if name else {}))]
+
+        rest, loads = moving(), outside_forces(self.robot, at)
+        motors = [0.0 if k in self.robot.actions.passive else at[x] for k, x in enumerate(self.robot.inputs)]
+        forces = self._forces(self._key("Ac"), [row[0] for row in self._key("lambda")])
+        columns = [[x - y for x, y in zip(moving(name), rest, strict=True)] for name in names]
+        right = [
+            value_at(held, at) + motor + load - force
+            for held, motor, load, force in zip(forces, motors, loads, rest, strict=True)
+        ]
+        return dict(zip(names, solved(list(zip(*columns, strict=True)), right), strict=True))
 
     def _state(self, at: dict[str, float]) -> dict[str, float] | None:
         try:
@@ -218,7 +268,7 @@ class OwnConstraint:
         return {**at, **{q.velocity: rate for q, rate in zip(self.robot.coordinates, rates, strict=True)}}
 
     def _required(self, rows: Rows, at: Mapping[str, float]) -> list[list[float]]:
-        return [[self._number(entry, at) for entry in row] for row in rows]
+        return [[value_at(entry, at) for entry in row] for row in rows]
 
     def _moved_to_zero(self, at: dict[str, float]) -> bool:
         """Newton's method towards h = 0, by the shortest steps Aᵀ (A Aᵀ)⁻¹ h."""

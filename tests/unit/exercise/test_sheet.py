@@ -56,6 +56,14 @@ def test_an_author_may_say_it_in_words(tmp_path: Path) -> None:
     assert "b) Show that l₁ is in D. (3 points)" in text
 
 
+CONVENTIONS = {"knife-edge": "with their sign as in 𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐀_cᵀ 𝛌."}
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_what_a_sign_or_an_order_is_counted_by_is_told(name: str) -> None:
+    assert re.sub(r"\s+", "", CONVENTIONS[name]) in re.sub(r"\s+", "", told(Path(name)))
+
+
 @pytest.mark.parametrize("name", sorted(bundled().keys() - LARGE))
 def test_no_sheet_tells_what_is_asked(name: str) -> None:
     problems = load_set(name)

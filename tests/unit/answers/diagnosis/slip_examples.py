@@ -250,6 +250,12 @@ find: [tau_static]
     "constraint_forces": Example(
         _BLADE, "tau", [["m*x_ddot - lambda1*sin(phi)"], ["m*y_ddot - lambda1*cos(phi)"], ["J*phi_ddot"]]
     ),
+    "multiplier_side": Example(
+        _BLADE,
+        "lambda",
+        "(f1*sin(phi) - f2*cos(phi))*(-1) - m*phi_dot*(x_dot*cos(phi) + y_dot*sin(phi))",
+        {"f1": "m*x_ddot + lambda1*sin(phi)", "f2": "m*y_ddot - lambda1*cos(phi)"},
+    ),
     "joint_columns": Example(IN3140, "Jv1", [["0", "cos(theta1)"], ["0", "sin(theta1)"], ["0", "0"]]),
     "prismatic_turns": Example(IN3140, "Jw", [["0", "cos(theta1)"], ["0", "sin(theta1)"], ["1", "0"]]),
     "order": Example(

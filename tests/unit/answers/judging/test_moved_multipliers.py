@@ -8,7 +8,7 @@ import pytest
 
 import dynsolve
 from dynsolve.answers.verdict import JudgedAnswer
-from dynsolve.questions.constraints.judge import WITHOUT_MULTIPLIERS
+from dynsolve.questions.constraints.judge import OTHER_SIDE, WITHOUT_MULTIPLIERS
 
 BLADE = """
 gravity: none
@@ -104,3 +104,56 @@ def _written(folder: Path, problem: str) -> Path:
     file = folder / "wheel.yaml"
     file.write_text(problem, encoding="utf-8")
     return file
+
+
+LADDER = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, y: prismatic, theta: revolute}
+  bodies: [{mass: m, at: [x, y, 0], turn: theta, about: [0, 0, 1], inertia: {zz: I}}]
+passive: [x, y, theta]
+constraints: [x - l*cos(theta), y - l*sin(theta)]
+find: [lambda]
+"""
+L1 = "m*l*(m*g*l*sin(theta)*cos(theta)/(m*l^2 + I) - cos(theta)*theta'^2)"
+KEYS = {"f1": "m*x'' - lambda1", "f2": "m*y'' + m*g - lambda2"}
+OTHER = {"f1": "m*x'' + lambda1", "f2": "m*y'' + m*g + lambda2"}
+
+
+@pytest.mark.parametrize(
+    ("answers", "expected", "is_noted"),
+    [
+        ({"lambda1": L1}, "c", False),
+        ({"lambda1": f"-{L1}"}, "c", True),
+        ({"lambda1": f"-2*{L1}"}, "w", False),
+        ({**KEYS, "lambda1": L1}, "ccc", False),
+        ({**OTHER, "lambda1": f"-{L1}"}, "ccc", True),
+        ({**KEYS, "lambda1": f"-{L1}"}, "ccw", False),
+        ({**OTHER, "lambda1": L1}, "ccw", False),
+    ],
+)
+def test_the_side_of_the_multipliers_is_that_of_their_equations(
+    answers: dict[str, str], expected: str, is_noted: bool, tmp_path: Path
+) -> None:
+    found = answered(tmp_path, LADDER, answers)
+    assert "".join(str(found[name].verdict)[0] for name in answers) == expected
+    assert (OTHER_SIDE in found["lambda1"].notes) == is_noted
+
+
+@pytest.mark.parametrize(("sign", "verdict"), [("+", "correct"), ("-", "wrong")])
+def test_a_displayed_equation_in_general_letters_tells_the_side(
+    sign: str, verdict: str, tmp_path: Path
+) -> None:
+    displayed = rf"$$D\ddot q + C\dot q + g {sign} A_c^T\lambda = \tau$$"
+    lambda1 = r"$$\lambda_1 = m l (-\frac{m g l \sin\theta\cos\theta}{m l^2 + I} + \cos\theta \dot\theta^2)$$"
+    found = checked(tmp_path, LADDER, f"{displayed}\n\n{lambda1}\n", "report.md")
+    assert found["lambda1"].verdict == verdict
+    assert verdict == "correct" or [one.code for one in found["lambda1"].diagnosis] == ["multiplier_side"]
+
+
+def test_other_multipliers_in_the_equations_are_those_of_its_matrix(tmp_path: Path) -> None:
+    equations = {"tau": "[m*x'' - 3*lambda*sin(phi), m*y'' + 3*lambda*cos(phi), J*phi'']"}
+    key = dynsolve.solve(dynsolve.load(_written(tmp_path, BLADE))).to_json()["results"]["lambda"][0]
+    for factor, verdict in (("1/3", "correct"), ("-1/3", "wrong"), ("1", "wrong")):
+        found = answered(tmp_path, BLADE, {**equations, "lambda": f"({factor})*({key})"})
+        assert found["lambda"].verdict == verdict
