@@ -15,12 +15,13 @@ from msgspec import Struct
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.given import in_words
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Product, Relation, Sum, Transpose
+from dynsolve.notation.tree import Product, Relation, Sum, Symbol, Transpose
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.family import Family
 from dynsolve.quantities.index import quantities
 from dynsolve.questions.constraints import MULTIPLIERS
+from dynsolve.questions.equilibria import LINEAR_A, LINEAR_B
 from dynsolve.robot.model import Robot
 
 
@@ -79,7 +80,15 @@ def _multipliers(robot: Robot) -> Prose:
     return (", with their sign as in ", Relation((moved, held)))
 
 
+def _state(robot: Robot) -> Prose:
+    """(q, q̇), as A and B have it."""
+    states = [Symbol(q.name, dots) for dots in (0, 1) for q in robot.coordinates]
+    listed = [part for state in states for part in (", ", state)][1:]
+    return (", with the state in the order (", *listed, ")")
+
+
 CONVENTIONS: Mapping[Family, Callable[[Robot], Prose]] = {
     **dict.fromkeys(MULTIPLIERS, _multipliers),
+    **dict.fromkeys((LINEAR_A, LINEAR_B), _state),
 }
 """What is told of a family, by the robot."""

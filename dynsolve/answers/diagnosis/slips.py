@@ -241,6 +241,8 @@ _SLIPS = (
     Slip("multiplier_side", "the sign of the multipliers",
          "In your equations of motion λ has the other sign.",
          "Look on which side of them A_cᵀ λ stands."),
+    Slip("state_order", "entries of a matrix", "In {yours}.",
+         "Linearize the equations of motion of these rows once more."),
     # in a Denavit-Hartenberg table
     Slip("dh_cell", "one cell of the table", "Row {part}: {yours} where {other} is needed. {term}",
          "Follow the four motions of this row with the drawing: about z, along z, along x, about x."),

@@ -44,6 +44,7 @@ from dynsolve.answers.judging.key_comparison import (
     with_own_multipliers,
 )
 from dynsolve.answers.judging.own_accelerations import with_own_accelerations
+from dynsolve.answers.judging.state_order import with_own_order
 from dynsolve.answers.verdict import Answer
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number, Symbol, names_in, walk, with_children
@@ -267,6 +268,7 @@ class ComparedHandIn:
         self.graph = values.graph if is_the_keys else AnswerGraph(self.answer_ring, potential, parameters)
         self.compare = KeyComparer(self.graph, self.compare_entry, values.changed)
         compared = {name: self.compare(name, last(chains)) for name, chains in self.chains.items()}
+        compared = with_own_order(self.graph.robot, compared, self.compare)
         compared = with_own_accelerations(compared, self.compare)
         self.comparisons = (
             self._on_constraint(compared, general) if self.graph.robot.questions.constraints else compared

@@ -256,6 +256,17 @@ find: [tau_static]
         "(f1*sin(phi) - f2*cos(phi))*(-1) - m*phi_dot*(x_dot*cos(phi) + y_dot*sin(phi))",
         {"f1": "m*x_ddot + lambda1*sin(phi)", "f2": "m*y_ddot - lambda1*cos(phi)"},
     ),
+    "state_order": Example(
+        """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+linearize: {q1: -90deg, q2: 0}
+find: [linear_A]
+""",
+        "linear_A",
+        [["0", "1", "0", "0"], ["a", "0", "a", "0"], ["0", "0", "0", "1"], ["a", "0", "a", "0"]],
+    ),
     "joint_columns": Example(IN3140, "Jv1", [["0", "cos(theta1)"], ["0", "sin(theta1)"], ["0", "0"]]),
     "prismatic_turns": Example(IN3140, "Jw", [["0", "cos(theta1)"], ["0", "sin(theta1)"], ["1", "0"]]),
     "order": Example(
