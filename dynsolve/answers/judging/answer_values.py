@@ -381,6 +381,7 @@ class AnswerValue(Struct, frozen=True):
 
     `read` are the rows where only some entries could be read, 0 for the others.
     `is_definition` says that the value needs what is given nowhere, which `fault` names.
+    `put` is what was put into the entries, as a given state.
     """
 
     answer: Answer
@@ -390,6 +391,7 @@ class AnswerValue(Struct, frozen=True):
     expected: str = ""
     is_definition: bool = False
     read: Rows | None = None
+    put: Callable[[RationalExpr], RationalExpr] | None = None
 
     @property
     def is_matrix(self) -> bool:

@@ -9,9 +9,9 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from dynsolve.algebra.fraction import RationalExpr, as_expr
+from dynsolve.algebra.fraction import RationalExpr, as_expr, same, simplified
 from dynsolve.algebra.linear_systems import FractionMatrix, fraction_of
-from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.matrix import AtState, Matrix
 from dynsolve.answers.judging.answer_values import AnswerValue, as_value, fitted, unfolded
 from dynsolve.answers.judging.entry_comparison import (
     EntryComparer,
@@ -40,6 +40,8 @@ from dynsolve.questions.parameters import REGRESSORS
 from dynsolve.questions.parameters.judge import forces_of, is_free, wrong_parameters
 
 Rows = tuple[tuple[WrittenEntry, ...], ...]
+
+AT_STATE = "right with the given state put in"
 
 
 class Target(Struct, frozen=True):
@@ -126,7 +128,8 @@ class KeyComparer:
         target = self.target(name)
         if value.rows is None or target.node not in self.answer_ring.rules:
             return KeyComparison(value, target)
-        key = self.key(target)
+        key, given = self.key(target), value
+        value = self._at_state(target, value)
         if isinstance(key, Skipped):
             fault, help = "the key is too large to be compared with", "a person has to look at this"
             return KeyComparison(replace(value, rows=None, fault=fault, expected=help), target)
@@ -146,9 +149,11 @@ class KeyComparer:
         is_equation = value.answer.is_equation
         case = self._case(target.node, quantity, rows, is_equation)
         stages = [one.family.stage for one in self.graph.quantities.values()]
-        other = "" if compared.correct else other_solution(case, stages)
+        if compared.correct:
+            return replace(compared, other=AT_STATE if value is not given else "")
+        other = other_solution(case, stages)
         if not other:
-            miss = None if compared.correct else missed(case, stages)
+            miss = missed(case, stages)
             return replace(compared, missed=miss, holds_with=self._held_by(case, stages) if miss else None)
         return replace(compared, right=tuple(tuple("" for _ in row) for row in rows), other=other)
 
@@ -159,6 +164,22 @@ class KeyComparer:
             return own[name] if name in own else self.graph.key(name)
 
         return lambda own: bool(other_solution(replace(case, result=partial(result, own)), stages))
+
+    def _at_state(self, target: Target, value: AnswerValue) -> AnswerValue:
+        """An answer for the given state that holds its coordinates, with the state put in; else the same."""
+        quantity, state = self.graph.quantities.of_rule(target.node), self.robot.questions.state
+        if quantity is None or not quantity.family.at_state or not state or value.rows is None:
+            return value
+        at = AtState(self.answer_ring.ring, state.by_symbol)
+
+        def put(entry: RationalExpr) -> RationalExpr:
+            divisor = entry.divisor and at(entry.divisor)
+            if divisor is not None and divisor.is_zero:
+                raise AlgebraError("in the given state it has no value")
+            return simplified(RationalExpr(at(entry.numerator), divisor))
+
+        rows = tuple(tuple(map(put, row)) for row in value.rows)
+        return value if same(rows, value.rows) else replace(value, rows=rows, put=put)
 
     def _case(self, node: str, quantity: Quantity | None, rows: Rows, is_equation: bool) -> Case:
         ring, values = self.answer_ring.ring, tuple(tuple(entry.value for entry in row) for row in rows)
@@ -218,10 +239,14 @@ class KeyComparer:
         if rows is None:
             whole = self._unfolded(name, value)
             return (whole, ()) if whole is not None else ((), (self._misfit(value, key),))
-        nodes = iter([node for row in value.nodes for node in row])
+        put, nodes = value.put, iter([node for row in value.nodes for node in row])
+
+        def changed(node: Node) -> RationalExpr:
+            return put(self.changed(node)) if put is not None else self.changed(node)
+
         blank = value.nodes[0][0]  # one 0 for a whole vector, and the last row of a transformation
         return tuple(
-            tuple(WrittenEntry(value, next(nodes, blank), self.changed) for value in row) for row in rows
+            tuple(WrittenEntry(value, next(nodes, blank), changed) for value in row) for row in rows
         ), ()
 
     def _unfolded(self, name: str, value: AnswerValue) -> Rows | None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 
 from dynsolve.answers.judge import check
+from dynsolve.answers.judging.key_comparison import AT_STATE
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.problem import read_problem
-from tests.unit.answers.hands import judge, judged, verdicts
+from tests.unit.answers.hands import Text, codes, judge, judged, verdicts
 
 HELD = """
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
@@ -73,3 +74,39 @@ def test_entries_may_be_written_alone() -> None:
     found = verdicts(check(problem, FileReader(problem)(text, "report.md")))
     assert found["tau_static"] == "correct"
     assert found["Q1"] == "wrong"
+
+
+AT_A_STATE = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}, {theta: q2*, a: l}]
+masses: [{mass: m, link: 1, center: midpoint}, {mass: m, link: 2, center: midpoint}]
+forces: [{link: 2, at: tip, force: [F, 0, 0]}]
+state: {q1: 90deg, q2: -90deg}
+velocity: [v, 0]
+find: [Q, tau_static, qd]
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "verdict", "is_noted"),
+    [
+        ("Q", [["-F*l*(sin(q1) + sin(q1+q2))"], ["-F*l*sin(q1+q2)"]], "correct", True),
+        ("Q", [["-F*l"], ["0"]], "correct", False),
+        ("Q", [["F*l*(sin(q1) + sin(q1+q2))"], ["F*l*sin(q1+q2)"]], "wrong", False),
+        ("tau_static", [["m*g*l*(3*cos(q1) + cos(q1+q2))/2 + F*l*(sin(q1) + sin(q1+q2))"],
+                        ["m*g*l*cos(q1+q2)/2 + F*l*sin(q1+q2)"]], "correct", True),
+        ("tau_static1", "m*g*l*(3*cos(q1) + cos(q1+q2))/2 + F*l*(sin(q1) + sin(q1+q2))", "correct", True),
+        ("qd", [["v*cos(q1+q2)/(l*sin(q2))"], ["-v*(cos(q1) + cos(q1+q2))/(l*sin(q2))"]], "correct", True),
+        ("qd", [["v*cos(q1+q2)/(l*cos(q2))"], ["0"]], "unreadable", False),
+    ],
+)  # fmt: skip
+def test_the_state_may_be_put_in_by_the_reader(name: str, value: Text, verdict: str, is_noted: bool) -> None:
+    found = judged(AT_A_STATE, name, value)
+    assert found.verdict == verdict
+    assert (AT_STATE in found.notes) == is_noted
+
+
+def test_what_is_wrong_for_every_q_is_told_of_the_state() -> None:
+    wrong = judged(AT_A_STATE, "Q", [["F*l*(sin(q1) + sin(q1+q2))"], ["F*l*sin(q1+q2)"]])
+    assert [str(entry.verdict) for entry in wrong.entries] == ["wrong", "correct"]
+    assert codes(wrong) == ["load_sign"] or codes(wrong) == ["sign_all"]
