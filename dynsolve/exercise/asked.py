@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
+from functools import partial
 from itertools import groupby
 
 from msgspec import Struct
@@ -15,13 +16,14 @@ from msgspec import Struct
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.given import in_words
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Product, Relation, Sum, Symbol, Transpose
+from dynsolve.notation.tree import Node, Product, Relation, Sum, Symbol, Transpose
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.family import Family
 from dynsolve.quantities.index import quantities
 from dynsolve.questions.constraints import MULTIPLIERS
 from dynsolve.questions.equilibria import LINEAR_A, LINEAR_B
+from dynsolve.questions.rates import QD, QDD
 from dynsolve.robot.model import Robot
 
 
@@ -87,8 +89,17 @@ def _state(robot: Robot) -> Prose:
     return (", with the state in the order (", *listed, ")")
 
 
+def _least(x: Node, robot: Robot) -> Prose:
+    """Of many solutions the one with the least xᵀ W x, where weights are given."""
+    weighted = robot.questions.weights is not None or robot.questions.weighs_by_inertia
+    W = letters.D if robot.questions.weighs_by_inertia else letters.WEIGHTS
+    return (", those with the least ", letters.transposed_product(x, W)) if weighted else ()
+
+
 CONVENTIONS: Mapping[Family, Callable[[Robot], Prose]] = {
     **dict.fromkeys(MULTIPLIERS, _multipliers),
     **dict.fromkeys((LINEAR_A, LINEAR_B), _state),
+    QD: partial(_least, letters.QD),
+    QDD: partial(_least, letters.QDD),
 }
 """What is told of a family, by the robot."""

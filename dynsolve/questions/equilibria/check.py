@@ -450,13 +450,17 @@ def verify(held: Held) -> None:
 
 
 def balanced_points(robot: Robot, conditions: Sequence[Node]) -> Iterator[dict[str, float]]:
-    """Values of all parameters at which all conditions are 0, each with a configuration."""
-    program = compile_trees(list(conditions))
-    free = sorted(set(robot.parameters) - never_zero(robot))
+    """Values of all parameters at which all conditions are 0, each with a configuration.
+
+    What is never 0, as a mass, is changed where nothing else makes them 0, and stays positive.
+    """
+    program, kept = compile_trees(list(conditions)), never_zero(robot)
+    free = sorted(set(robot.parameters) - kept)
     places = [name for name in free if name not in table_lengths(robot)]
+    moved = (places, free, sorted(robot.parameters))
     for start in islice(samples(robot.ring), STATES):
-        found = (zero_along(names, program, start) for names in (places, free)) if conditions else (start,)
-        yield from islice((at for at in found if at is not None), 1)
+        found = (zero_along(names, program, start) for names in moved) if conditions else (start,)
+        yield from islice((at for at in found if at is not None and all(at[x] > CLOSE for x in kept)), 1)
 
 
 def is_balanced(robot: Robot, gravity: Node, at: Mapping[str, float]) -> bool:

@@ -56,12 +56,22 @@ def test_an_author_may_say_it_in_words(tmp_path: Path) -> None:
     assert "b) Show that l₁ is in D. (3 points)" in text
 
 
-CONVENTIONS = {"knife-edge": "with their sign as in 𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐀_cᵀ 𝛌."}
+WEIGHTED = ARM.replace(
+    "find: [A, D]\nmarks: {A1: 1, A2: 1/2, D: 3}", "task: [tip.x]\nvelocity: [v]\nfind: [qd]"
+)
+CONVENTIONS = {
+    "knife-edge": "with their sign as in 𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐀_cᵀ 𝛌.",
+    "crane": "near the equilibrium, with the state in the order (",
+    WEIGHTED + "weights: {q1: w, q2: 1}\n": "those with the least 𝐪̇ᵀ 𝐖 𝐪̇.",
+    WEIGHTED + "weights: D\n": "those with the least 𝐪̇ᵀ 𝐃 𝐪̇.",
+    WEIGHTED: "Find the rates of the coordinates 𝐪̇.",
+}
 
 
 @pytest.mark.parametrize("name", CONVENTIONS)
-def test_what_a_sign_or_an_order_is_counted_by_is_told(name: str) -> None:
-    assert re.sub(r"\s+", "", CONVENTIONS[name]) in re.sub(r"\s+", "", told(Path(name)))
+def test_what_a_sign_or_an_order_is_counted_by_is_told(name: str, tmp_path: Path) -> None:
+    file = with_files(tmp_path, {"own.yaml": name}) / "own.yaml" if "\n" in name else Path(name)
+    assert re.sub(r"\s+", "", CONVENTIONS[name]) in re.sub(r"\s+", "", told(file))
 
 
 @pytest.mark.parametrize("name", sorted(bundled().keys() - LARGE))

@@ -72,6 +72,8 @@ def test_what_must_be_negative_is_told() -> None:
         (ARM, '["m2*d2 = 0 and d1 = -m2*l1/m1"]', ""),
         (ARM, "[d2 = 0]", "not_balanced"),
         (ARM, "[d2^2 + 1 = 0]", "balance_never_holds"),
+        (ARM, "[d2 = 0, m1 = 0]", "balance_never_holds"),
+        (ARM, '["d2 = 0", "m1*d1 + m2*l1 = 0", "m1 = m2"]', "condition_too_much"),
         (ARM, "[d2 = 0, d1 = 0]", "not_balanced"),
         (ARM, '["d2 = 0", "m1*d1 + m2*l1 = 0", "l2 = 1"]', "condition_too_much"),
     ],
