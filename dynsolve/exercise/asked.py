@@ -16,7 +16,7 @@ from msgspec import Struct
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.given import in_words
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Node, Product, Relation, Sum, Symbol, Transpose
+from dynsolve.notation.tree import Node, Product, Sum, Symbol, Transpose
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import letters
 from dynsolve.quantities.family import Family
@@ -28,11 +28,15 @@ from dynsolve.robot.model import Robot
 
 
 class Part(Struct, frozen=True):
-    """One thing that is asked for: its words, the answers that give it, and its points."""
+    """One thing that is asked for: its words, the answers that give it, and its points.
+
+    `convention` is a sentence on what its answer is counted by, empty where there is no choice.
+    """
 
     words: Prose
     names: tuple[str, ...]
     points: Fraction
+    convention: Prose = ()
 
 
 def parts(problem: Problem, marks: dict[str, Fraction]) -> Iterator[Part]:
@@ -59,7 +63,7 @@ def parts(problem: Problem, marks: dict[str, Fraction]) -> Iterator[Part]:
             asked = [known[name] for name in own]
             convention = CONVENTIONS.get(asked[0].family)
             told = convention(problem.robot) if convention else ()
-            yield Part(("Find ", *in_words(problem.robot, asked), *told, "."), own, points)
+            yield Part(("Find ", *in_words(problem.robot, asked), "."), own, points, told)
 
 
 def worded(text: str) -> Prose:
@@ -79,21 +83,21 @@ def _multipliers(robot: Robot) -> Prose:
     """D q̈ + C q̇ + g = τ + A_cᵀ λ"""
     moved = Sum((Product((letters.D, letters.QDD)), Product((letters.C, letters.QD)), letters.G))
     held = Sum((letters.TAU, Product((Transpose(letters.A_C), letters.LAMBDA))))
-    return (", with their sign as in ", Relation((moved, held)))
+    return ("Their sign is such that ", moved, " equals ", held, ".")
 
 
 def _state(robot: Robot) -> Prose:
     """(q, q̇), as A and B have it."""
     states = [Symbol(q.name, dots) for dots in (0, 1) for q in robot.coordinates]
     listed = [part for state in states for part in (", ", state)][1:]
-    return (", with the state in the order (", *listed, ")")
+    return ("The state is in the order (", *listed, ").")
 
 
 def _least(x: Node, robot: Robot) -> Prose:
     """Of many solutions the one with the least xᵀ W x, where weights are given."""
     weighted = robot.questions.weights is not None or robot.questions.weighs_by_inertia
     W = letters.D if robot.questions.weighs_by_inertia else letters.WEIGHTS
-    return (", those with the least ", letters.transposed_product(x, W)) if weighted else ()
+    return ("Of many, take those with the least ", letters.transposed_product(x, W), ".") if weighted else ()
 
 
 CONVENTIONS: Mapping[Family, Callable[[Robot], Prose]] = {

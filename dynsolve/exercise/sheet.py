@@ -23,7 +23,7 @@ from msgspec.structs import replace
 from dynsolve.answers.marks import shown
 from dynsolve.answers.reading.files import EXTRA, pandoc
 from dynsolve.derivation.rules import derive
-from dynsolve.document import Block, Document, Heading, Inline, Text, Verbatim
+from dynsolve.document import Block, Document, Heading, Inline, Prose, Text, Verbatim
 from dynsolve.draw import is_drawn, picture
 from dynsolve.draw.figure import to_png
 from dynsolve.errors import UsageError
@@ -150,7 +150,12 @@ def _asked(exercise: Exercise) -> Iterator[Block]:
     """What is to be found: a), b), c), each with its points, and how its answer is called."""
     for letter, part in zip(_letters(), exercise.parts, strict=False):
         points = f" ({_points(part.points)})" if part.points else ""
-        yield Text((f"{letter}) ", *part.words, points))
+        yield Text((f"{letter}) ", *_told(part), points))
+
+
+def _told(part: Part) -> Prose:
+    """What is asked, and what it is counted by."""
+    return (*part.words, " ", *part.convention) if part.convention else part.words
 
 
 def _letters() -> Iterator[str]:
@@ -232,7 +237,7 @@ def exam_source(problems: ProblemSet, date: str = "") -> str:
         lines.append(latex.render_blocks(Document(exercise.given), exercise.style))
         lines.append(r"\begin{parts}")
         for part in exercise.parts:
-            text = latex.render_blocks(Document((Text(part.words),)), exercise.style)
+            text = latex.render_blocks(Document((Text(_told(part)),)), exercise.style)
             lines.append(
                 rf"\part[{shown(part.points)}] {text.strip()}" if part.points else rf"\part {text.strip()}"
             )

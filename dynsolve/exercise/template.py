@@ -98,6 +98,8 @@ def template_of(problem: Problem) -> Template:
     first, printer = problem.robot.coordinates[0].name, LatexPrinter(PLAIN)
     rate, acceleration = (printer.text(Symbol(first, dots)) for dots in (1, 2))
     told = [(what, how.format(q=first, rate=rate, acceleration=acceleration)) for what, how in NOTATION]
+    asked = parts(problem, dict(problem.marks))
+    told += [(_typed(part.convention), ", ".join(part.names)) for part in asked if part.convention]
     has_sets = any(blank.kind in (Kind.EQUATIONS, Kind.CONDITIONS) for blank in blanks)
     return Template(problem, tuple(_letters(problem)), (*told, *([OF_SETS] if has_sets else [])), blanks)
 

@@ -60,10 +60,10 @@ WEIGHTED = ARM.replace(
     "find: [A, D]\nmarks: {A1: 1, A2: 1/2, D: 3}", "task: [tip.x]\nvelocity: [v]\nfind: [qd]"
 )
 CONVENTIONS = {
-    "knife-edge": "with their sign as in 𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐀_cᵀ 𝛌.",
-    "crane": "near the equilibrium, with the state in the order (",
-    WEIGHTED + "weights: {q1: w, q2: 1}\n": "those with the least 𝐪̇ᵀ 𝐖 𝐪̇.",
-    WEIGHTED + "weights: D\n": "those with the least 𝐪̇ᵀ 𝐃 𝐪̇.",
+    "knife-edge": "Their sign is such that 𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 equals 𝛕 + 𝐀_cᵀ 𝛌.",
+    "crane": "near the equilibrium. The state is in the order (",
+    WEIGHTED + "weights: {q1: w, q2: 1}\n": "Of many, take those with the least 𝐪̇ᵀ 𝐖 𝐪̇.",
+    WEIGHTED + "weights: D\n": "Of many, take those with the least 𝐪̇ᵀ 𝐃 𝐪̇.",
     WEIGHTED: "Find the rates of the coordinates 𝐪̇.",
 }
 

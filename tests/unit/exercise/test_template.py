@@ -76,6 +76,12 @@ def test_one_slip_is_the_only_thing_that_is_wrong(name: str, form: TemplateForma
     assert [a.name for a in report.answers if a.verdict is Verdict.WRONG] == ["g"]
 
 
+@pytest.mark.parametrize("form", FORMS)
+def test_what_an_answer_is_counted_by_is_told(form: TemplateFormat) -> None:
+    page = template(checker("knife-edge").problem, form).decode()
+    assert "Their sign is such that D q̈ + C q̇ + g equals τ + A_cᵀ λ." in page
+
+
 @pytest.mark.skipif(pandoc() is None, reason="the extra `office` is not installed")
 @pytest.mark.parametrize("name", KINDS)
 def test_a_word_document_is_read_back(name: str) -> None:
