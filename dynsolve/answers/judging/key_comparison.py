@@ -340,7 +340,7 @@ def with_own_multipliers(
             found[name] = replace(compared, obstacles=(Obstacle("multiplier_side"),))
         elif compared.correct:
             found[name] = tried[0]
-        elif (missed := own.missed(_written(compared))) is not None:
+        elif (missed := own.missed(_written(compared).values())) is not None:
             found[name] = replace(compared, missed=missed)
     return found
 

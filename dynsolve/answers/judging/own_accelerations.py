@@ -45,8 +45,7 @@ def with_own_accelerations(
     right = tuple(("" if k in held else None,) if within[k] else row for k, row in enumerate(compared.right))
     lost = [k for k, (one,) in enumerate(right) if one is None]
     if lost:
-        row = next((k + 1 for k in lost if within[k]), 0)
-        missed = Missed("D q̈ + C q̇ + g = τ", row, True) if row else None
+        missed = Missed("D q̈ + C q̇ + g = τ", is_one_of_many=True) if any(within[k] for k in lost) else None
         found[NAME] = replace(compared, right=right, missed=missed)
     elif len(found_before(within)) == robot.n:
         found[NAME] = replace(compared, right=right, other=BY_OTHERS)

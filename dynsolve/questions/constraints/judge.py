@@ -8,7 +8,7 @@ that is held in numbers, at states of a fixed seed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from itertools import islice
 from typing import Any
@@ -50,6 +50,7 @@ OTHER_SIDE = "right with A_cᵀ λ on the other side: D q̈ + C q̇ + g + A_cᵀ
 STATES = 4
 """So many states on the constraint are looked at."""
 
+_EQUATIONS = "D q̈ + C q̇ + g = τ + A_cᵀ λ"
 _TRIES, _STEPS, _CLOSE = 60, 40, 1e-7
 
 
@@ -161,19 +162,10 @@ class OwnConstraint:
             return self._agree((mine,), (wanted,))
         return IN_MOTION if self._close((mine,), (wanted,), self._motions) else ""
 
-    def missed(self, written: Mapping[int, RationalExpr]) -> Missed | None:
-        """The row of the equations of motion that multipliers with accelerations in them do not satisfy."""
-        if not any(accelerations_in(self.robot, one) for one in written.values()) or not self._motions:
-            return None
-        at = self._motions[0]
-        key = {k: row[0] for k, row in enumerate(self._required(self._key("lambda"), at))}
-        off = [key[k] - value_at(one, at) for k, one in written.items()]
-        matrix = self._required(self._key("Ac"), at)
-        forces = (
-            sum(matrix[k][i] * x for k, x in zip(written, off, strict=True)) for i in range(self.robot.n)
-        )
-        row = next((i for i, force in enumerate(forces, 1) if abs(force) > _CLOSE), 1)
-        return Missed("D q̈ + C q̇ + g = τ + A_cᵀ λ", row, True)
+    def missed(self, written: Iterable[RationalExpr]) -> Missed | None:
+        """The equations of motion, which multipliers with accelerations in them do not satisfy."""
+        holds_accelerations = any(accelerations_in(self.robot, one) for one in written)
+        return Missed(_EQUATIONS, is_one_of_many=True) if holds_accelerations else None
 
     def accelerations(self, entries: Sequence[RationalExpr]) -> bool:
         """Whether accelerations that forces make are the key's, for every state or where h = 0."""
@@ -299,7 +291,7 @@ def _unbalanced(case: Case) -> Missed | None:
     """The equation of multipliers where many satisfy it, of which the key is one."""
     A: Matrix = case.result("Ac")
     has_many = rank_parts(A).rank < len(A.rows)
-    return Missed("D q̈ + C q̇ + g = τ + A_cᵀ λ", is_one_of_many=True) if has_many else None
+    return Missed(_EQUATIONS, is_one_of_many=True) if has_many else None
 
 
 MISSED = {"lambda": _unbalanced}

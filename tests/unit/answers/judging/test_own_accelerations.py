@@ -53,10 +53,10 @@ def test_accelerations_by_one_another_wait() -> None:
 @pytest.mark.parametrize(
     ("rows", "verdicts", "told"),
     [
-        ((FIRST, SECOND.replace("- l1", "+ l1")), ["correct", "wrong"], ["equation"]),
+        ((FIRST, SECOND.replace("- l1", "+ l1")), [], ["equation"]),
         ((FIRST.replace("- (l2", "+ (l2"), SECOND), ["wrong", "correct"], None),
-        ((BACK, SECOND.replace("- l1", "+ l1")), ["correct", "wrong"], ["equation"]),
-        (("q1_ddot + 1", "q2_ddot"), ["wrong", "correct"], ["equation"]),
+        ((BACK, SECOND.replace("- l1", "+ l1")), [], ["equation"]),
+        (("q1_ddot + 1", "q2_ddot"), [], ["equation"]),
     ],
 )
 def test_no_slip_is_told_of_a_row_with_accelerations(
