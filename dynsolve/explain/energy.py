@@ -349,7 +349,10 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
     own = turned(context, body, "w", letters.of_body("omega", body, "bold"))
     assert isinstance(step.formula, Relation)
     put_in = Line(("The tensor along the body's own axes put in:",), step.working, (f"I_body{body.name}",))
-    in_full = [replace(line, detail=Detail.FULL) for line in (put_in, *step.lines) if line.formulas]
+    by_identity = any(isinstance(part, Relation) for part in step.concluding)
+    shown = step.lines[-1:] if by_identity else ()
+    worked = [line for line in (put_in, *step.lines) if line.formulas]
+    worked = [line if line in shown else replace(line, detail=Detail.FULL) for line in worked]
     half = formula("½ ({own})ᵀ {I} ({own})", own=own.name, I=tensor)
     return replace(
         step,
@@ -364,8 +367,8 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
         ),
         formula=equation(*step.formula.parts, half),
         working=(),
-        lines=(*own.lines, *in_full),
-        normal=STATED | Part.WHY | Part.LINES,
+        lines=(*own.lines, *worked),
+        normal=STATED | Part.WHY | Part.LINES | (Part.CONCLUDING if by_identity else Part(0)),
         said="own axes",
         uses=(f"v{body.name}", own.uses),
     )

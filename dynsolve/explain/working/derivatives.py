@@ -205,7 +205,9 @@ def slopes(context: Context) -> Way:
         for k in range(context.robot.n)
     )
     meet = any(sum(map(bool, weights(context, *ijk).values())) > 1 for ijk in indices)
-    if not meet and not any(each.by_product_rule or each.used for each in found):
+    is_work = any(each.by_product_rule or each.used for each in found)
+    is_named = context.by_energies and "christoffel" in context.introduced  # no force has them
+    if not (meet or is_work or is_named):
         return SILENT
     used = dict.fromkeys(identity for each in found for identity in each.used)
     words = say(

@@ -93,3 +93,23 @@ def test_no_angle_is_free_where_that_can_never_be() -> None:
     arm = "gravity: none\ndh: [{theta: q1*, a: %s}, {theta: q2*, a: %s}]\nreach: [5, 0]\nfind: [inverse]\n"
     assert "is free" not in told(arm % (3, 4))
     assert "is free" in told(arm % (3, 3))
+
+
+CUFF = """
+gravity: [0, 0, -g]
+dh: [{theta: q1*, d: h, alpha: 90deg}, {theta: q2*, a: l}, {theta: q3*, a: b}]
+masses:
+  - {mass: m2, link: 2, center: midpoint, shape: {cylinder: {radius: r, length: l, axis: x}}}
+  - {mass: m3, link: 3, center: tip}
+"""
+
+
+def test_an_identity_that_a_rotational_energy_needs_has_its_line() -> None:
+    text = told(CUFF)
+    line = text[text.index("K_ω1 = ½ (1/12) m₂") :]
+    assert line.index("By s₂² + c₂² = 1") < line.index("K_ω1 = (1/24)")
+
+
+def test_what_symbols_abbreviate_is_derived_before_them() -> None:
+    text = told(CUFF + "find: [D, C, g]\n")
+    assert text.index("∂d₁₁/∂q₂ = -") < text.index("Abbreviations") < text.index("c₁₂₁ = c₂₁₁")
