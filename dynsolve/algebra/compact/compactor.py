@@ -490,7 +490,7 @@ class Compactor:
 
     def _by_radii(self, terms: Terms) -> Node | None:
         """(√3 q₂/2 + a + l c₃)² + l² s₄²: the product of a radius that leaves the shortest rest, and that."""
-        if not self._of_radii or len(terms) < SMALLEST_SQUARE:
+        if not (self._of_radii and SMALLEST_SQUARE <= len(terms) <= LARGE):
             return None
         width, found = len(next(iter(terms))), list[Node]()
         for number, mono, product in self._of_radii:
