@@ -530,7 +530,7 @@ def _beside_held(context: Context, q: Coordinate) -> tuple[Prose, list[Node]]:
         why += " Friction is overcome."
         terms.append(letters.friction(q.index))
     if robot.questions.loads and not context.values[FOR_EVERY_Q][k, 0].is_zero:
-        why += " What acts from outside is on the left side, too."
+        why += " What acts from outside is added on both sides."
         terms.append(letters.entry("Q", q.index))
     return (why,) if why else (), terms
 
