@@ -177,7 +177,7 @@ def _known(context: Context, joint: Joint) -> Iterator[Node]:
             yield equation(names("{I}"), context.show(_tensor(context, body)))
     start = recursions.start_of_moments(robot, A)
     for place, at, force, moment in _from_outside(context, joint.index):
-        for name, value in zip(outside_names(link, place), (start + at, force, moment), strict=True):
+        for name, value in zip(outside_names(link, Number(place)), (start + at, force, moment), strict=True):
             if not value.is_zero:
                 yield equation(name, context.show(value))
 
@@ -399,7 +399,7 @@ def _forces(context: Context, i: int) -> Iterator[Part]:
     for body in robot.bodies_on(i):
         yield _inertial(context, body)
     for place, _, force, _ in _from_outside(context, i):
-        yield Negative(outside_names(Names.of(robot, i), place)[1]), -force
+        yield Negative(outside_names(Names.of(robot, i), Number(place))[1]), -force
 
 
 def _moments(context: Context, i: int) -> Iterator[Part]:
@@ -420,7 +420,7 @@ def _moments(context: Context, i: int) -> Iterator[Part]:
         yield from zip(moment_of_body(Names.of(robot, i, body), name, body.is_point), found, strict=True)
     yield from _rotor_moments(context, i)
     for place, at, force, moment in _from_outside(context, i):
-        lever, named, couple = outside_names(Names.of(robot, i), place)
+        lever, named, couple = outside_names(Names.of(robot, i), Number(place))
         if not force.is_zero:
             yield Negative(Cross(lever, named)), -cross(start + at, force)
         if not moment.is_zero:
@@ -592,17 +592,21 @@ def general_steps(context: Context) -> Iterator[Step]:
             )
     after = Names(CHILD if is_tree else letters.AFTER, letters.COUNT, context.standard)
     inertial = inertial_force(link, formula("m_i"), _is_heavy(context))
+    is_loaded = bool(context.robot.questions.loads)
+    lever, outside, couple = outside_names(link, Symbol("j"))
     yield _general(
         context,
         "inwards",
         "Inwards: the forces and moments that the links need",
         "From the last link to the first: Newton's law and Euler's for each."
-        + " Each link k that follows link i has the terms with k." * is_tree,
+        + " Each link k that follows link i has the terms with k." * is_tree
+        + " Each force j from outside on link i has the terms with j." * is_loaded,
         {
-            "𝐟_{i}^{i}": [after("{R} 𝐟_{i}^{i}"), inertial],
+            "𝐟_{i}^{i}": [after("{R} 𝐟_{i}^{i}"), inertial, *[Negative(outside)] * is_loaded],
             "𝐧_{i}^{i}": [
                 *moment_of_next(link, after),
                 *moment_of_body(link, inertial, is_point=False),
+                *[Negative(Cross(lever, outside)), Negative(couple)] * is_loaded,
             ],
         },
     )

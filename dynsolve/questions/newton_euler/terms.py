@@ -66,13 +66,13 @@ class Names(Struct, frozen=True):
         return formula(text, i=i, **{**own, **values})
 
 
-def outside_names(link: Names, number: int) -> tuple[Node, Node, Node]:
+def outside_names(link: Names, number: Node) -> tuple[Node, Node, Node]:
     """The point of a force from outside, from the point of n_i; the force, and its moment; in frame i."""
-    place = Row((Words("F"), Number(number)))
+    place = Row((Words("F"), number))
     return (
         letters.bold("r", place, link.i),
-        letters.bold("F", Number(number), link.i),
-        letters.bold("M", Number(number), link.i),
+        letters.bold("F", number, link.i),
+        letters.bold("M", number, link.i),
     )
 
 

@@ -107,6 +107,10 @@ def test_of_a_tree_the_recursions_go_from_row_to_row() -> None:
     assert to_unicode(steps["outwards_fixed"].result[0]) == "ωᵢⁱ = (Rᵢ^p)ᵀ ω_p^p"
     assert to_unicode(steps["inwards"].result[0]).startswith("fᵢⁱ = Rₖⁱ fₖ^k + ")
     assert "Each link k that follows link i" in why(steps["inwards"])
+    loaded = more.replace("find:", "forces: [{link: 2, at: tip, force: [F, 0, 0]}]\nfind:")
+    steps = {step.id: step for step in dynsolve.solve(loaded, method="newton-euler").steps}
+    assert to_unicode(steps["inwards"].result[0]).endswith(" - Fⱼⁱ")
+    assert to_unicode(steps["inwards"].result[1]).endswith(" - r_Fjⁱ × Fⱼⁱ - Mⱼⁱ")
 
 
 def accelerated(q: np.ndarray, rates: np.ndarray, dots: np.ndarray, at: dict[str, float]) -> np.ndarray:
